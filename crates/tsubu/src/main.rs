@@ -1,0 +1,2 @@
+//! The command `tsubu`.
+fn main() {}
