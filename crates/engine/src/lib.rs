@@ -1,1 +1,26 @@
-//! TODO
+//! The engine: it owns the grains, their lists and the bodies, and takes one step after another.
+//!
+//! It names no law, no water, no mesh and no file format: those meet it through the traits of
+//! `tsubu-model`. A step cannot fail; trouble is a [`Health`] read outside the loop.
+//!
+//! Read in this order: `line` (what the force loop reads of a grain), `pass` (the force loop),
+//! `lanes` (the fenced vector module), `walls`, `kick`, `world` (one step), `rebuild`, `look`.
+
+mod line;
+mod kinds;
+mod lanes;
+mod pass;
+mod walls;
+mod chunk;
+mod kick;
+mod world;
+mod rebuild;
+mod look;
+mod health;
+
+pub use health::Health;
+pub use kinds::{KindSet, ManyKinds, OneKind};
+pub use lanes::Lanes;
+pub use line::{Layout, Line};
+pub use walls::{Body, TouchesAt};
+pub use world::{NoTally, Setup, Tally, WithTally, World};

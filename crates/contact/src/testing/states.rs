@@ -1,0 +1,154 @@
+//! The states that the suite tries, in the law's own scales.
+
+use super::report::{Breach, Check};
+use tsubu_model::{ContactLaw, Dim, Kind, Numbers, Push, Still, Touch, Vector};
+
+/// Overlaps over the range. The smallest still leaves the force twelve digits above rounding.
+pub(super) const OVERLAPS: [f64; 4] = [1e-4, 1e-3, 1e-2, 5e-2];
+
+/// A law for one pair of kinds, with the scales that its states are measured in.
+pub(super) struct Case<'a, D: Dim, L: ContactLaw<D, Still>> {
+    pub law: &'a L,
+    pub a: &'a Kind,
+    pub b: &'a Kind,
+    pub pair: L::Pair,
+    /// Distance from which on there is no force, m.
+    pub range: f64,
+    /// Stiffness at 1 % overlap, N/m.
+    pub stiffness: f64,
+    /// Reduced mass, kg.
+    pub mass: f64,
+    /// √(k/m*), 1/s.
+    pub rate: f64,
+    /// A step that resolves the contact: about 300 to a period, s.
+    pub dt: f64,
+}
+
+/// One state of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct State<V> {
+    pub apart: V,
+    pub velocity: V,
+}
+
+impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
+    pub(super) fn new(law: &'a L, a: &'a Kind, b: &'a Kind) -> Result<Self, Breach> {
+        let pair = law.pair(a, b);
+        let range = L::range(&pair);
+        let mass = 1.0 / (1.0 / a.mass + 1.0 / b.mass);
+        let mut case = Self { law, a, b, pair, range, stiffness: 0.0, mass, rate: 0.0, dt: 1.0 };
+        let shallow = case.at(State { apart: axis::<D::V>(0) * (0.99 * range), velocity: D::V::ZERO });
+        case.stiffness = L::linear(&pair, &shallow, case.dt).normal_stiffness;
+        case.rate = (case.stiffness / mass).sqrt();
+        case.dt = 0.02 / case.rate;
+        let sound = |x: f64| x.is_finite() && x > 0.0;
+        if sound(range) && sound(case.stiffness) && sound(case.rate) {
+            return Ok(case);
+        }
+        let stiffness = case.stiffness;
+        let found = format!("range = {range:e} m, stiffness at 1 % overlap = {stiffness:e} N/m, reduced mass = {mass:e} kg");
+        Err(Breach { check: Check::Scales, excess: f64::INFINITY, found })
+    }
+
+    /// True if the partner is a wall: then there is no second grain to change places with.
+    pub(super) fn is_wall(&self) -> bool {
+        self.b.radius == 0.0
+    }
+
+    /// The contact as the law sees it.
+    pub(super) fn at(&self, state: State<D::V>) -> Touch<D, Still> {
+        touch(state, self.a.radius + self.b.radius)
+    }
+
+    /// The force of a contact that has just begun.
+    pub(super) fn push(&self, state: State<D::V>) -> Push<D, Still> {
+        L::force(&self.pair, &self.at(state), &mut L::Memory::zero(), self.dt)
+    }
+
+    /// The stored energy of a contact that has just begun.
+    pub(super) fn stored(&self, state: State<D::V>) -> f64 {
+        L::stored(&self.pair, &self.at(state), &L::Memory::zero())
+    }
+
+    /// Contacts of every overlap in [`OVERLAPS`] from `least` up, in many directions, at rest and moving.
+    pub(super) fn states(&self, least: f64) -> impl Iterator<Item = State<D::V>> + use<'_, 'a, D, L> {
+        let speed = 0.01 * self.range * self.rate;
+        let overlaps = OVERLAPS.into_iter().filter(move |&overlap| overlap >= least);
+        overlaps.flat_map(move |overlap| {
+            directions::<D::V>().enumerate().flat_map(move |(i, direction)| {
+                let apart = direction * (self.range * (1.0 - overlap));
+                let wander = scattered::<D::V>(1000 + i as u64);
+                [0.0, 1e-3, 1.0].map(|fast| State { apart, velocity: wander * (fast * speed) })
+            })
+        })
+    }
+
+    /// The state in words, in the law's scales.
+    pub(super) fn words(&self, state: State<D::V>) -> String {
+        let State { apart, velocity } = state;
+        let overlap = 1.0 - apart.length() / self.range;
+        format!("at overlap {overlap:.3e} of the range, apart = {apart:?} m, velocity = {velocity:?} m/s")
+    }
+}
+
+pub(super) fn touch<D: Dim>(state: State<D::V>, reach: f64) -> Touch<D, Still> {
+    let State { apart, velocity } = state;
+    Touch { apart, velocity, r2: apart.length_squared(), reach, spin: Default::default() }
+}
+
+/// Sizes of the parts of a force together: the scale of its rounding.
+pub(super) fn size<D: Dim>(push: &Push<D, Still>) -> f64 {
+    push.elastic.length() + push.viscous.length() + push.slip.length()
+}
+
+/// A unit vector along a coordinate axis.
+pub(super) fn axis<V: Vector>(which: usize) -> V {
+    V::from_axes(|a| if a == which { 1.0 } else { 0.0 })
+}
+
+/// Unit vectors: along the axes, where coordinates are exactly zero, and scattered.
+pub(super) fn directions<V: Vector>() -> impl Iterator<Item = V> {
+    let axes = (0..V::AXES).flat_map(|a| [axis::<V>(a), -axis::<V>(a)]);
+    axes.chain((0..24).map(|i| {
+        let v = scattered::<V>(i);
+        v * (1.0 / v.length())
+    }))
+}
+
+/// A vector with coordinates in ±1 and a length of at least 0.3, always the same for the same number.
+pub(super) fn scattered<V: Vector>(number: u64) -> V {
+    let mut seed = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    loop {
+        let v = V::from_axes(|_| {
+            // One round of SplitMix64: well mixed bits from a counter.
+            seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (seed ^ (seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        });
+        if v.length() > 0.3 {
+            return v;
+        }
+    }
+}
+
+/// Two unit vectors at right angles, in no special direction: the plane of a collision.
+pub(super) fn frame<V: Vector>(number: u64) -> (V, V) {
+    let (u, w) = (scattered::<V>(number), scattered::<V>(number + 77));
+    let u = u * (1.0 / u.length());
+    let w = w - u * w.dot(u);
+    (u, w * (1.0 / w.length()))
+}
+
+/// The vector turned about every axis in turn by an awkward angle.
+pub(super) fn turned<V: Vector>(v: V) -> V {
+    let (sin, cos) = 0.7_f64.sin_cos();
+    (1..V::AXES).fold(v, |v, last| {
+        let (x, y) = (v.axis(last - 1), v.axis(last));
+        V::from_axes(|a| match a {
+            _ if a == last - 1 => cos * x - sin * y,
+            _ if a == last => sin * x + cos * y,
+            _ => v.axis(a),
+        })
+    })
+}

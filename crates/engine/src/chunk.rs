@@ -1,0 +1,73 @@
+//! A chunk: a fixed run of grains in sorted order, the unit of work of a thread.
+//! Sums are kept chunk by chunk and added in order, so the number of threads changes no bit.
+
+use tsubu_model::{Dim, HitBuffer, Vector};
+use tsubu_neighbors::ChunkList;
+
+/// Grains per chunk.
+pub(crate) const CHUNK: usize = 512;
+
+/// A grain that may touch a body before the next list build.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Near {
+    pub body: u32,
+    /// Position within the chunk.
+    pub slot: u32,
+}
+
+/// The dissipative parts of one wall contact, kept for the tally until the kick.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WallPart<D: Dim> {
+    pub slot: u32,
+    pub viscous: D::V,
+    pub slip: D::V,
+}
+
+/// Work space and partial sums of a chunk. Vectors are cleared and reused: a step allocates nothing.
+#[derive(Debug)]
+pub(crate) struct Chunk<D: Dim> {
+    pub list: ChunkList,
+    pub near: Vec<Near>,
+    pub points: Vec<D::V>,
+    pub reaches: Vec<f64>,
+    pub hits: HitBuffer<D>,
+    pub wall_parts: Vec<WallPart<D>>,
+    /// Energy lost since the start to damping between grains, wall damping, wall friction, in J.
+    pub lost: [f64; 3],
+    /// Force on each body in the last step.
+    pub on_bodies: Vec<D::V>,
+    /// Square of the largest drift speed of the last step.
+    pub fastest2: f64,
+    /// Square of the largest change of velocity in the last sweep of the last solve.
+    pub last_sweep2: f64,
+    /// First grain (index) that was not finite or too fast, since the start.
+    pub trouble: Option<usize>,
+}
+
+impl<D: Dim> Chunk<D> {
+    pub fn new(bodies: usize) -> Self {
+        Self {
+            list: ChunkList::default(),
+            near: Vec::new(),
+            points: Vec::new(),
+            reaches: Vec::new(),
+            hits: HitBuffer::default(),
+            wall_parts: Vec::new(),
+            lost: [0.0; 3],
+            on_bodies: vec![D::V::ZERO; bodies],
+            fastest2: 0.0,
+            last_sweep2: 0.0,
+            trouble: None,
+        }
+    }
+
+    pub fn bytes(&self) -> usize {
+        self.list.bytes()
+            + size_of::<Self>()
+            + self.near.capacity() * size_of::<Near>()
+            + (self.points.capacity() + self.on_bodies.capacity()) * size_of::<D::V>()
+            + self.reaches.capacity() * 8
+            + self.hits.hits.capacity() * size_of::<tsubu_model::Hit<D>>()
+            + self.wall_parts.capacity() * size_of::<WallPart<D>>()
+    }
+}

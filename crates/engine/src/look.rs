@@ -1,0 +1,120 @@
+//! The view that observers and gates get.
+
+use crate::chunk::CHUNK;
+use crate::health::Health;
+use crate::kinds::KindSet;
+use crate::line::Layout;
+use crate::world::{Tally, World, touch_of};
+use tsubu_model::{BodyState, ContactLaw, Energies, Kind, Numbers, SpinState, TouchingPair, Vector, View};
+
+impl<D, S, K, L, W, T> World<D, S, K, L, W, T>
+where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    W: ContactLaw<D, S>,
+    T: Tally,
+{
+    /// Every listed pair once, in the order of the lists.
+    fn pairs_once(&self, mut each: impl FnMut(usize, usize)) {
+        for (number, chunk) in self.chunks.iter().enumerate() {
+            for (slot, j) in chunk.list.iter() {
+                let i = number * CHUNK + slot;
+                if i < j {
+                    each(i, j);
+                }
+            }
+        }
+    }
+
+    /// The deepest contact, if it is deeper than `share` of the law's range.
+    pub fn overlap_health(&self, share: f64) -> Health {
+        let mut worst = Health::Fine;
+        let mut deepest = share;
+        self.touching(&mut |pair| {
+            let now = pair.overlap / self.range;
+            if now > deepest {
+                deepest = now;
+                worst = Health::DeepOverlap {
+                    grain: self.identity[pair.i],
+                    partner: self.identity[pair.j],
+                    place: D::to_space(self.position(pair.i)).to_array(),
+                    share: now,
+                    time: self.now(),
+                };
+            }
+        });
+        worst
+    }
+}
+
+impl<D, S, K, L, W, T> View<D, S> for World<D, S, K, L, W, T>
+where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    W: ContactLaw<D, S>,
+    T: Tally,
+{
+    fn time(&self) -> f64 {
+        self.now()
+    }
+
+    fn len(&self) -> usize {
+        self.identity.len()
+    }
+
+    fn position(&self, i: usize) -> D::V {
+        self.lines[i].position::<D>()
+    }
+
+    fn velocity(&self, i: usize) -> D::V {
+        self.lines[i].velocity::<D>()
+    }
+
+    fn kind(&self, i: usize) -> &Kind {
+        self.kind_of(i)
+    }
+
+    fn identity(&self, i: usize) -> u32 {
+        self.identity[i]
+    }
+
+    fn bodies(&self) -> Vec<BodyState<D>> {
+        let force = |k: usize| self.chunks.iter().fold(D::V::ZERO, |sum, c| sum + c.on_bodies[k]);
+        self.bodies.iter().enumerate().map(|(k, b)| BodyState { name: b.name.clone(), removed_at: b.removed_at, force: force(k) }).collect()
+    }
+
+    fn gravity(&self) -> D::V {
+        self.gravity
+    }
+
+    fn energies(&self) -> Energies {
+        let mut e = Energies::default();
+        for i in 0..self.len() {
+            let kind = self.kind_of(i);
+            e.kinetic += 0.5 * kind.mass * self.velocity(i).length_squared();
+            e.gravitational -= kind.weight * self.gravity.dot(self.position(i));
+        }
+        self.pairs_once(|i, j| {
+            let (pair, touch) = touch_of::<D, S, K, L>(&self.lines, &self.pairs, self.kinds.all().len(), &self.domain, i, j);
+            e.elastic += L::stored(pair, &touch, &L::Memory::zero());
+        });
+        e.elastic_walls = self.stored_in_walls().iter().sum();
+        [e.lost_damping, e.lost_wall_damping, e.lost_wall_friction] = self.lost();
+        e.taken_by_removal = self.taken();
+        e
+    }
+
+    fn touching(&self, each: &mut dyn FnMut(TouchingPair)) {
+        self.pairs_once(|i, j| {
+            let (pair, touch) = touch_of::<D, S, K, L>(&self.lines, &self.pairs, self.kinds.all().len(), &self.domain, i, j);
+            let overlap = L::range(pair) - touch.r();
+            if overlap > 0.0 {
+                each(TouchingPair { i, j, overlap });
+            }
+        });
+    }
+}

@@ -1,0 +1,98 @@
+//! When and how the lists are built anew. Nothing here looks at a clock or a number of threads.
+
+use crate::chunk::{CHUNK, Chunk, Near};
+use crate::kinds::{KindSet, pick};
+use crate::line::Layout;
+use crate::world::{Tally, World};
+use rayon::prelude::*;
+use tsubu_model::{ContactLaw, SpinState, Vector};
+use tsubu_neighbors::{CellGrid, Reorder};
+
+/// Lists that live shorter than this many steps get a wider skin, longer than the second a narrower one.
+const LIFE: (u64, u64) = (24, 400);
+
+impl<D, S, K, L, W, T> World<D, S, K, L, W, T>
+where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    W: ContactLaw<D, S>,
+    T: Tally,
+{
+    /// After a drift: builds the lists anew if some grain may have moved by half the skin.
+    /// The largest speed of each step bounds the path; the true displacements are looked at only
+    /// when that bound is used up.
+    pub(crate) fn keep_lists_valid(&mut self) {
+        let fastest = self.chunks.iter().map(|c| c.fastest2).fold(0.0, f64::max).sqrt();
+        self.moved += fastest * self.dt();
+        let half = 0.5 * self.skin;
+        if self.moved <= half {
+            return;
+        }
+        let furthest2 = self.lines.iter().zip(&self.home).map(|(line, home)| (line.position::<D>() - *home).length_squared()).fold(0.0, f64::max);
+        self.moved = furthest2.sqrt();
+        // Close to the end there would be a look at every step: build now.
+        if self.moved > 0.85 * half || self.moved.is_nan() {
+            self.adapt_skin();
+            self.build_lists();
+        }
+    }
+
+    fn adapt_skin(&mut self) {
+        if self.skin_is_fixed {
+            return;
+        }
+        let lived = self.steps.saturating_sub(self.built_at);
+        if lived < LIFE.0 {
+            self.skin = (self.skin * 1.2).min(0.35 * self.range);
+        } else if lived > LIFE.1 {
+            self.skin = (self.skin * 0.85).max(0.03 * self.range);
+        }
+    }
+
+    /// Wraps, sorts in space, builds the list of every chunk and notes who is near which body.
+    pub(crate) fn build_lists(&mut self) {
+        let n = self.identity.len();
+        for line in &mut self.lines[..n] {
+            line.set_position::<D>(self.domain.wrap(line.position::<D>()));
+        }
+        let cut = self.range + self.skin;
+        let lines = &self.lines;
+        let grid = CellGrid::new(&self.domain, n, |i| lines[i].position::<D>(), cut);
+        let mut reorder = Reorder::default();
+        reorder.apply(&grid.order, &mut self.lines[..n]);
+        reorder.apply(&grid.order, &mut self.identity);
+        let lines = &self.lines;
+        for (home, line) in self.home.iter_mut().zip(lines) {
+            *home = line.position::<D>();
+        }
+        let (domain, skin, bodies, pairs) = (self.domain, self.skin, &self.bodies, &self.wall_pairs);
+        let work = |number: usize, chunk: &mut Chunk<D>| {
+            let own = number * CHUNK..((number + 1) * CHUNK).min(n);
+            chunk.list.build(&grid, &domain, own.clone(), |i| lines[i].position::<D>(), cut, n as u32);
+            chunk.near.clear();
+            for (body, (wall, pairs)) in bodies.iter().zip(pairs).enumerate().filter(|(_, (b, _))| b.removed_at.is_none()) {
+                for i in own.clone() {
+                    let reach = pick::<K, _>(pairs, lines[i].kind::<D>()).reach;
+                    if wall.surface.lower_bound(lines[i].position::<D>()) < reach + skin {
+                        chunk.near.push(Near { body: body as u32, slot: (i - own.start) as u32 });
+                    }
+                }
+            }
+            // The fenced module reads lines by these indices without looking again.
+            assert!(chunk.list.blocks().iter().flatten().all(|&j| j as usize <= n));
+        };
+        if n >= 4 * CHUNK && rayon::current_thread_index().is_some() {
+            self.chunks.par_iter_mut().enumerate().for_each(|(number, chunk)| work(number, chunk));
+        } else {
+            for (number, chunk) in self.chunks.iter_mut().enumerate() {
+                work(number, chunk);
+            }
+        }
+        self.build_scratch = grid.bytes() + grid.bytes() / 2 + reorder.bytes();
+        self.moved = 0.0;
+        self.built_at = self.steps;
+        self.builds += 1;
+    }
+}

@@ -1,0 +1,164 @@
+//! Bodies and the wall pass: the same kind of law as between grains, with a `Touch` made from a surface's hit.
+
+use crate::chunk::{Chunk, WallPart};
+use crate::kinds::{KindSet, pick};
+use crate::line::{Layout, Line};
+use crate::world::Tally;
+use std::sync::Arc;
+use tsubu_model::{ContactLaw, Kind, Linear, Numbers, Push, SpinState, Surface, Touch, Vector};
+
+/// Where a grain touches a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TouchesAt {
+    /// At its surface: s = distance of the centre + d/2.
+    Surface,
+    /// At its centre, the literal reading of paper A: s = distance of the centre.
+    Centre,
+}
+
+/// A body: a surface, the law of grains against it, and what the grains do to it.
+pub struct Body<D: Layout, W> {
+    /// Name in the scene.
+    pub name: String,
+    /// Its surface.
+    pub surface: Arc<dyn Surface<D>>,
+    /// Law of grains against it.
+    pub law: W,
+    /// Where a grain touches it.
+    pub touches_at: TouchesAt,
+    /// When it was taken away, in s.
+    pub removed_at: Option<f64>,
+}
+
+/// Constants of a body against one kind of grain.
+#[derive(Clone, Copy)]
+pub(crate) struct WallPair<P> {
+    pub pair: P,
+    /// Added to the distance of the centre to get s, in m.
+    pub offset: f64,
+    /// Distance of the centre from which on there is no force, in m.
+    pub reach: f64,
+    /// s is not let below this, so that a grain whose centre is inside is still pushed out, in m.
+    pub least: f64,
+}
+
+impl<D: Layout, W> Body<D, W> {
+    pub(crate) fn pairs<S: SpinState>(&self, kinds: &[Kind]) -> Vec<WallPair<W::Pair>>
+    where
+        W: ContactLaw<D, S>,
+    {
+        kinds
+            .iter()
+            .map(|kind| {
+                let pair = self.law.pair(kind, &Kind::immovable());
+                let offset = match self.touches_at {
+                    TouchesAt::Surface => kind.radius,
+                    TouchesAt::Centre => 0.0,
+                };
+                let range = W::range(&pair);
+                WallPair { pair, offset, reach: range - offset, least: 0.1 * range }
+            })
+            .collect()
+    }
+}
+
+/// What the wall pass reads.
+pub(crate) struct WallJob<'a, D: Layout, S: SpinState, W: ContactLaw<D, S>> {
+    pub bodies: &'a [Body<D, W>],
+    /// Per body, per kind.
+    pub pairs: &'a [Vec<WallPair<W::Pair>>],
+    pub dt: f64,
+}
+
+/// Calls `each(body, slot, touch, pair)` for every contact of the chunk's grains with bodies.
+fn contacts<D, S, K, W>(
+    job: &WallJob<'_, D, S, W>,
+    lines: &[Line],
+    chunk: &mut Chunk<D>,
+    mut each: impl FnMut(&mut Chunk<D>, usize, usize, &Touch<D, S>, &W::Pair),
+) where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    W: ContactLaw<D, S>,
+{
+    let mut from = 0;
+    while from < chunk.near.len() {
+        let number = chunk.near[from].body as usize;
+        let to = from + chunk.near[from..].iter().take_while(|n| n.body as usize == number).count();
+        if job.bodies[number].removed_at.is_none() {
+            chunk.points.clear();
+            chunk.reaches.clear();
+            chunk.hits.hits.clear();
+            for near in &chunk.near[from..to] {
+                let line = &lines[near.slot as usize];
+                chunk.points.push(line.position::<D>());
+                chunk.reaches.push(pick::<K, _>(&job.pairs[number], line.kind::<D>()).reach);
+            }
+            job.bodies[number].surface.hits(&chunk.points, &chunk.reaches, &mut chunk.hits);
+            for h in 0..chunk.hits.hits.len() {
+                let hit = chunk.hits.hits[h];
+                let slot = chunk.near[from + hit.of as usize].slot as usize;
+                let line = &lines[slot];
+                let wall = pick::<K, _>(&job.pairs[number], line.kind::<D>());
+                let s = (hit.distance + wall.offset).max(wall.least);
+                let touch = Touch { apart: hit.normal * s, velocity: line.velocity::<D>(), r2: s * s, reach: 2.0 * line.0[D::RADIUS], spin: Default::default() };
+                each(chunk, number, slot, &touch, &wall.pair);
+            }
+        }
+        from = to;
+    }
+}
+
+/// Forces of the bodies on the chunk's grains, added to `force`; the reactions go to the chunk.
+pub(crate) fn wall_forces<D, S, K, W, T>(job: &WallJob<'_, D, S, W>, lines: &[Line], chunk: &mut Chunk<D>, force: &mut [D::V])
+where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    W: ContactLaw<D, S>,
+    T: Tally,
+{
+    chunk.wall_parts.clear();
+    chunk.on_bodies.fill(D::V::ZERO);
+    contacts::<D, S, K, W>(job, lines, chunk, |chunk, body, slot, touch, pair| {
+        let push: Push<D, S> = W::force(pair, touch, &mut W::Memory::zero(), job.dt);
+        let total = push.total();
+        force[slot] += total;
+        chunk.on_bodies[body] += -total;
+        if T::ON {
+            chunk.wall_parts.push(WallPart { slot: slot as u32, viscous: push.viscous, slip: push.slip });
+        }
+    });
+}
+
+/// Adds each grain's wall damping to `damping`, for the solve.
+pub(crate) fn wall_damping<D, S, K, W>(job: &WallJob<'_, D, S, W>, lines: &[Line], chunk: &mut Chunk<D>, damping: &mut [f64])
+where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    W: ContactLaw<D, S>,
+{
+    contacts::<D, S, K, W>(job, lines, chunk, |_, _, slot, touch, pair| {
+        damping[slot] += strongest(&W::linear(pair, touch, job.dt));
+    });
+}
+
+/// Elastic energy of the chunk's grains against each body, added to `stored`.
+pub(crate) fn wall_energy<D, S, K, W>(job: &WallJob<'_, D, S, W>, lines: &[Line], chunk: &mut Chunk<D>, stored: &mut [f64])
+where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    W: ContactLaw<D, S>,
+{
+    contacts::<D, S, K, W>(job, lines, chunk, |_, body, _, touch, pair| {
+        stored[body] += W::stored(pair, touch, &W::Memory::zero());
+    });
+}
+
+/// The larger damping of a contact: an upper bound of its diagonal block, so the sweeps still converge.
+pub(crate) fn strongest(linear: &Linear) -> f64 {
+    linear.normal_damping.max(linear.tangential_damping)
+}

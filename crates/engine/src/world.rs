@@ -1,0 +1,399 @@
+//! The world: grains, lists and bodies of one scene, and one step of time.
+
+use crate::chunk::{CHUNK, Chunk};
+use crate::health::Health;
+use crate::kick::Kick;
+use crate::kinds::KindSet;
+use crate::lanes::{self, Lanes};
+use crate::line::{Layout, Line};
+use crate::pass::Job;
+use crate::walls::{Body, WallJob, WallPair, strongest, wall_damping, wall_energy, wall_forces};
+use rayon::prelude::*;
+use std::marker::PhantomData;
+use std::sync::Arc;
+use tsubu_integrate::{Drift, Scheme};
+use tsubu_model::{ContactLaw, Domain, Kind, Numbers, SpinState, Touch, Vector};
+
+/// Whether the work of damping and friction is summed, as a type: a run that does not ask does not pay.
+pub trait Tally: Send + Sync + 'static {
+    /// True if it is.
+    const ON: bool;
+}
+
+/// Energies are not tallied.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoTally;
+/// Energies are tallied in every step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WithTally;
+
+impl Tally for NoTally {
+    const ON: bool = false;
+}
+impl Tally for WithTally {
+    const ON: bool = true;
+}
+
+/// Everything a world is made from.
+pub struct Setup<D: Layout, K, L, W> {
+    /// Kinds of grains.
+    pub kinds: K,
+    /// Law between grains.
+    pub law: L,
+    /// Bodies, each with its own law value.
+    pub bodies: Vec<Body<D, W>>,
+    /// Periodic lengths.
+    pub domain: Domain<D>,
+    /// Gravity in m/s².
+    pub gravity: D::V,
+    /// Integrator.
+    pub scheme: Scheme,
+    /// Step in s.
+    pub dt: f64,
+    /// Skin of the lists in m; `None` lets the engine adapt it from the number of steps that lists live.
+    pub skin: Option<f64>,
+    /// Vector path.
+    pub lanes: Lanes,
+    /// Threads; `None` runs without a pool.
+    pub pool: Option<Arc<rayon::ThreadPool>>,
+    /// Position, velocity and kind of each grain; the index is its identity.
+    pub grains: Vec<(D::V, D::V, usize)>,
+}
+
+/// A running scene. `K`: one kind or several; `L`, `W`: laws between grains and against walls;
+/// `T`: whether energies are tallied.
+pub struct World<D: Layout, S: SpinState, K: KindSet, L: ContactLaw<D, S>, W: ContactLaw<D, S>, T: Tally> {
+    pub(crate) kinds: K,
+    pub(crate) pairs: Vec<L::Pair>,
+    pub(crate) bodies: Vec<Body<D, W>>,
+    pub(crate) wall_pairs: Vec<Vec<WallPair<W::Pair>>>,
+    pub(crate) domain: Domain<D>,
+    pub(crate) gravity: D::V,
+    weights: Vec<D::V>,
+    scheme: Scheme,
+    dt: f64,
+    lanes: Lanes,
+    pool: Option<Arc<rayon::ThreadPool>>,
+
+    /// Grains in sorted order, then the dummy.
+    pub(crate) lines: Vec<Line>,
+    pub(crate) identity: Vec<u32>,
+    /// Positions at the last list build.
+    pub(crate) home: Vec<D::V>,
+    force: Vec<D::V>,
+    viscous: Vec<D::V>,
+    base: Vec<D::V>,
+    damping: Vec<f64>,
+    pub(crate) chunks: Vec<Chunk<D>>,
+
+    pub(crate) range: f64,
+    pub(crate) skin: f64,
+    pub(crate) skin_is_fixed: bool,
+    /// No grain has moved further than this since the last list build.
+    pub(crate) moved: f64,
+    pub(crate) steps: u64,
+    pub(crate) built_at: u64,
+    pub(crate) builds: u64,
+    pub(crate) build_scratch: usize,
+    taken_by_removal: f64,
+    types: PhantomData<(S, T)>,
+}
+
+impl<D, S, K, L, W, T> World<D, S, K, L, W, T>
+where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    W: ContactLaw<D, S>,
+    T: Tally,
+{
+    /// A world at rest at time 0, lists built and forces known.
+    pub fn new(setup: Setup<D, K, L, W>) -> Self {
+        let Setup { kinds, law, bodies, domain, gravity, scheme, dt, skin, lanes, pool, grains } = setup;
+        let all = kinds.all();
+        let pairs: Vec<L::Pair> = all.iter().flat_map(|a| all.iter().map(|b| law.pair(a, b))).collect();
+        let range = pairs.iter().map(|p| L::range(p)).fold(0.0, f64::max);
+        let wall_pairs = bodies.iter().map(|b| b.pairs::<S>(all)).collect();
+        let weights = all.iter().map(|k| gravity * k.weight).collect();
+        let n = grains.len();
+        let mut lines: Vec<Line> = Vec::with_capacity(n + 1);
+        lines.extend(grains.iter().map(|&(x, v, kind)| Line::new::<D>(domain.wrap(x), v, all[kind].radius, kind)));
+        lines.push(Line::dummy::<D>());
+        let solves = if scheme.sweeps() > 0 { n } else { 0 };
+        let mut world = Self {
+            pairs,
+            wall_pairs,
+            weights,
+            chunks: (0..n.div_ceil(CHUNK)).map(|_| Chunk::new(bodies.len())).collect(),
+            bodies,
+            domain,
+            gravity,
+            scheme,
+            dt,
+            lanes,
+            pool,
+            lines,
+            identity: (0..n as u32).collect(),
+            home: vec![D::V::ZERO; n],
+            force: vec![D::V::ZERO; n],
+            viscous: vec![D::V::ZERO; if T::ON { n } else { 0 }],
+            base: vec![D::V::ZERO; solves],
+            damping: vec![0.0; solves],
+            range,
+            skin: skin.unwrap_or(0.04 * range),
+            skin_is_fixed: skin.is_some(),
+            moved: 0.0,
+            steps: 0,
+            built_at: 0,
+            builds: 0,
+            build_scratch: 0,
+            taken_by_removal: 0.0,
+            types: PhantomData,
+            kinds,
+        };
+        world.build_lists();
+        world.forces();
+        world
+    }
+
+    /// Takes `steps` steps, or stops early when a grain runs away (see [`health`](Self::health)).
+    pub fn advance(&mut self, steps: u64) {
+        match self.pool.clone() {
+            Some(pool) => pool.install(|| self.take(steps)),
+            None => self.take(steps),
+        }
+    }
+
+    fn take(&mut self, steps: u64) {
+        for _ in 0..steps {
+            self.step();
+            if self.chunks.iter().any(|c| c.trouble.is_some()) {
+                break;
+            }
+        }
+    }
+
+    /// One step. The parts are those of [`Scheme`].
+    fn step(&mut self) {
+        let (scheme, h) = (self.scheme, self.scheme.kick() * self.dt);
+        let drift = scheme.drift();
+        if drift == Drift::BeforeForces {
+            self.kick(h, Some(drift));
+            self.keep_lists_valid();
+        }
+        self.forces();
+        let later = (drift != Drift::BeforeForces).then_some(drift);
+        if scheme.sweeps() > 0 {
+            self.solve(h, scheme.sweeps(), later);
+        } else {
+            self.kick(h, later);
+        }
+        if later.is_some() {
+            self.keep_lists_valid();
+        }
+        self.steps += 1;
+    }
+
+    /// Contact forces, walls and weight at the present positions and velocities.
+    pub(crate) fn forces(&mut self) {
+        let (lines, pairs, weights) = (&self.lines, &self.pairs, &self.weights);
+        let (domain, dt, path, kinds) = (self.domain, self.dt, self.lanes, self.kinds.all().len());
+        let walls = WallJob::<D, S, W> { bodies: &self.bodies, pairs: &self.wall_pairs, dt };
+        let work = |number: usize, chunk: &mut Chunk<D>, force: &mut [D::V], viscous: &mut [D::V]| {
+            let first = number * CHUNK;
+            let job = Job::<D, S, K, L, T> { lines, list: &chunk.list, first, pairs, kinds, weights, domain, dt, types: PhantomData };
+            lanes::run(path, &job, force, viscous);
+            wall_forces::<D, S, K, W, T>(&walls, &lines[first..first + force.len()], chunk, force);
+        };
+        // An untallied run has no viscous array; an empty slice stands in for each chunk.
+        if self.pool.is_some() {
+            let chunks = self.chunks.par_iter_mut().zip(self.force.par_chunks_mut(CHUNK)).enumerate();
+            if T::ON {
+                chunks.zip(self.viscous.par_chunks_mut(CHUNK)).for_each(|((n, (c, f)), v)| work(n, c, f, v));
+            } else {
+                chunks.for_each(|(n, (c, f))| work(n, c, f, &mut []));
+            }
+        } else {
+            let mut viscous = self.viscous.chunks_mut(CHUNK);
+            for (n, (c, f)) in self.chunks.iter_mut().zip(self.force.chunks_mut(CHUNK)).enumerate() {
+                work(n, c, f, viscous.next().unwrap_or(&mut []));
+            }
+        }
+    }
+
+    /// Square of half a range per step: no grain of a sound run is that fast.
+    fn too_fast2(&self) -> f64 {
+        (0.5 * self.range / self.dt).powi(2)
+    }
+
+    fn kick(&mut self, h: f64, drift: Option<Drift>) {
+        let kick = Kick { kinds: self.kinds.all(), h, dt: self.dt, drift, too_fast2: self.too_fast2() };
+        let n = self.identity.len();
+        let (lines, force, viscous) = (&mut self.lines[..n], &self.force, &self.viscous);
+        let part = |number: usize| if T::ON { &viscous[number * CHUNK..((number + 1) * CHUNK).min(n)] } else { &[] };
+        let work = |number: usize, chunk: &mut Chunk<D>, lines: &mut [Line], force: &[D::V]| {
+            kick.run::<D, K, T>(number * CHUNK, chunk, lines, force, part(number));
+        };
+        if self.pool.is_some() {
+            self.chunks.par_iter_mut().zip(lines.par_chunks_mut(CHUNK)).zip(force.par_chunks(CHUNK)).enumerate().for_each(|(n, ((c, l), f))| work(n, c, l, f));
+        } else {
+            for (n, ((c, l), f)) in self.chunks.iter_mut().zip(lines.chunks_mut(CHUNK)).zip(force.chunks(CHUNK)).enumerate() {
+                work(n, c, l, f);
+            }
+        }
+    }
+
+    /// The linear solve of the averaged and the implicit dashpot: sweeps, then kick and drift.
+    /// Forces run in parallel; the light passes between them are serial.
+    fn solve(&mut self, h: f64, sweeps: u32, drift: Option<Drift>) {
+        let n = self.identity.len();
+        for (base, line) in self.base.iter_mut().zip(&self.lines) {
+            *base = line.velocity::<D>();
+        }
+        self.diagonal_damping();
+        for sweep in 0..sweeps {
+            if sweep > 0 {
+                self.forces();
+            }
+            let kick = Kick { kinds: self.kinds.all(), h, dt: self.dt, drift, too_fast2: self.too_fast2() };
+            let at = |number: usize| number * CHUNK..((number + 1) * CHUNK).min(n);
+            let (base, damping) = (&self.base, &self.damping);
+            let chunks = self.chunks.iter_mut().zip(self.lines[..n].chunks_mut(CHUNK)).zip(self.force.chunks(CHUNK));
+            for (number, ((chunk, lines), force)) in chunks.enumerate() {
+                kick.sweep::<D, K>(chunk, lines, force, &base[at(number)], &damping[at(number)]);
+            }
+        }
+        let kick = Kick { kinds: self.kinds.all(), h, dt: self.dt, drift, too_fast2: self.too_fast2() };
+        let mut viscous = self.viscous.chunks_mut(CHUNK);
+        let chunks = self.chunks.iter_mut().zip(self.lines[..n].chunks_mut(CHUNK)).zip(self.force.chunks_mut(CHUNK)).zip(self.base.chunks(CHUNK));
+        for (number, (((chunk, lines), force), base)) in chunks.enumerate() {
+            kick.finish_solve::<D, K, T>(number * CHUNK, chunk, lines, force, viscous.next().unwrap_or(&mut []), base);
+        }
+    }
+
+    /// Sum of the dampings of each grain's contacts at the present positions.
+    fn diagonal_damping(&mut self) {
+        let walls = WallJob::<D, S, W> { bodies: &self.bodies, pairs: &self.wall_pairs, dt: self.dt };
+        for (number, (chunk, damping)) in self.chunks.iter_mut().zip(self.damping.chunks_mut(CHUNK)).enumerate() {
+            let first = number * CHUNK;
+            damping.fill(0.0);
+            for (slot, j) in chunk.list.iter() {
+                let (pair, touch) = touch_of::<D, S, K, L>(&self.lines, &self.pairs, self.kinds.all().len(), &self.domain, first + slot, j);
+                damping[slot] += strongest(&L::linear(pair, &touch, self.dt));
+            }
+            wall_damping::<D, S, K, W>(&walls, &self.lines[first..first + damping.len()], chunk, damping);
+        }
+    }
+
+    /// Elastic energy of the grains against each body.
+    pub(crate) fn stored_in_walls(&self) -> Vec<f64> {
+        let walls = WallJob::<D, S, W> { bodies: &self.bodies, pairs: &self.wall_pairs, dt: self.dt };
+        let mut stored = vec![0.0; self.bodies.len()];
+        for (number, lines) in self.lines[..self.identity.len()].chunks(CHUNK).enumerate() {
+            let mut scratch = Chunk::new(self.bodies.len());
+            scratch.near.clone_from(&self.chunks[number].near);
+            wall_energy::<D, S, K, W>(&walls, lines, &mut scratch, &mut stored);
+        }
+        stored
+    }
+
+    /// Takes a body away; its elastic energy leaves with it and is booked.
+    pub fn remove_body(&mut self, number: usize) {
+        if self.bodies.get(number).is_none_or(|b| b.removed_at.is_some()) {
+            return;
+        }
+        self.taken_by_removal += self.stored_in_walls()[number];
+        self.bodies[number].removed_at = Some(self.now());
+        self.forces();
+    }
+
+    /// Simulated time in s.
+    pub fn now(&self) -> f64 {
+        self.steps as f64 * self.dt
+    }
+
+    /// Steps taken.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Step in s.
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Lists built so far.
+    pub fn list_counts(&self) -> (usize, usize) {
+        self.chunks.iter().fold((0, 0), |s, c| (s.0 + c.list.entries(), s.1 + c.list.blocks().len()))
+    }
+
+    /// Lists built so far.
+    pub fn list_builds(&self) -> u64 {
+        self.builds
+    }
+
+    /// Largest change of a velocity in the last sweep of the last solve, in m/s: how far the solve is
+    /// from its end. Zero for explicit schemes.
+    pub fn solve_residual(&self) -> f64 {
+        self.chunks.iter().map(|c| c.last_sweep2).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Whether the numbers are still physics.
+    pub fn health(&self) -> Health {
+        let Some(i) = self.chunks.iter().find_map(|c| c.trouble) else { return Health::Fine };
+        let line = &self.lines[i];
+        Health::Runaway {
+            grain: self.identity[i],
+            place: D::to_space(line.position::<D>()).to_array(),
+            speed: line.velocity::<D>().length(),
+            time: self.now(),
+        }
+    }
+
+    /// Bytes held per grain: lines, forces, lists, and the scratch of a list build at its peak.
+    pub fn bytes_per_grain(&self) -> f64 {
+        let vectors = self.home.capacity() + self.force.capacity() + self.viscous.capacity() + self.base.capacity();
+        let total = self.lines.capacity() * size_of::<Line>()
+            + vectors * size_of::<D::V>()
+            + self.damping.capacity() * 8
+            + self.identity.capacity() * 4
+            + self.chunks.iter().map(Chunk::bytes).sum::<usize>()
+            + self.build_scratch;
+        total as f64 / self.identity.len().max(1) as f64
+    }
+
+    pub(crate) fn lost(&self) -> [f64; 3] {
+        self.chunks.iter().fold([0.0; 3], |s, c| [s[0] + c.lost[0], s[1] + c.lost[1], s[2] + c.lost[2]])
+    }
+
+    pub(crate) fn taken(&self) -> f64 {
+        self.taken_by_removal
+    }
+
+    pub(crate) fn kind_of(&self, i: usize) -> &Kind {
+        crate::kinds::pick::<K, _>(self.kinds.all(), self.lines[i].kind::<D>())
+    }
+}
+
+/// The contact of grains `i` and `j` and the constants of their pair.
+pub(crate) fn touch_of<'p, D, S, K, L>(lines: &[Line], pairs: &'p [L::Pair], kinds: usize, domain: &Domain<D>, i: usize, j: usize) -> (&'p L::Pair, Touch<D, S>)
+where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+{
+    let (a, b) = (&lines[i], &lines[j]);
+    let apart = domain.nearest(a.position::<D>() - b.position::<D>());
+    let touch = Touch {
+        apart,
+        velocity: a.velocity::<D>() - b.velocity::<D>(),
+        r2: apart.length_squared(),
+        reach: a.0[D::RADIUS] + b.0[D::RADIUS],
+        spin: Default::default(),
+    };
+    let pair = if K::INDEXED { &pairs[a.kind::<D>() * kinds + b.kind::<D>()] } else { &pairs[0] };
+    debug_assert!(<L::Memory as Numbers>::N == 0);
+    (pair, touch)
+}

@@ -1,0 +1,154 @@
+//! How observers and gates look at a running simulation, and what they may say.
+
+use crate::{Dim, Kind, SpinState};
+
+/// Energies in J. Everything that leaves is summed step by step, nothing is inferred as a remainder.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// Σ ½ m v².
+    pub kinetic: f64,
+    /// Σ −m g·x.
+    pub gravitational: f64,
+    /// Elastic energy between grains.
+    pub elastic: f64,
+    /// Elastic energy of grains against walls.
+    pub elastic_walls: f64,
+    /// Lost so far to damping between grains.
+    pub lost_damping: f64,
+    /// Lost so far to damping at walls.
+    pub lost_wall_damping: f64,
+    /// Lost so far to friction at walls.
+    pub lost_wall_friction: f64,
+    /// Elastic energy that left with a removed wall.
+    pub taken_by_removal: f64,
+}
+
+impl Energies {
+    /// What the run still holds plus what it has lost: constant if the books close.
+    pub fn total(&self) -> f64 {
+        self.held() + self.lost_damping + self.lost_wall_damping + self.lost_wall_friction + self.taken_by_removal
+    }
+
+    /// Kinetic, gravitational and elastic energy.
+    pub fn held(&self) -> f64 {
+        self.kinetic + self.gravitational + self.elastic + self.elastic_walls
+    }
+}
+
+/// A pair of touching grains.
+#[derive(Clone, Copy, Debug)]
+pub struct TouchingPair {
+    /// Index of one grain.
+    pub i: usize,
+    /// Index of the other.
+    pub j: usize,
+    /// Range of the law minus the distance of the centres, in m.
+    pub overlap: f64,
+}
+
+/// A body as observers see it.
+#[derive(Clone, Debug)]
+pub struct BodyState<D: Dim> {
+    /// Its name in the scene.
+    pub name: String,
+    /// When it was taken away, if it was, in s.
+    pub removed_at: Option<f64>,
+    /// Sum of the forces of all grains on it, in N.
+    pub force: D::V,
+}
+
+/// A running simulation, read only.
+pub trait View<D: Dim, S: SpinState> {
+    /// Simulated time in s.
+    fn time(&self) -> f64;
+    /// Number of grains.
+    fn len(&self) -> usize;
+    /// True if there are no grains.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// Centre of grain `i` in m.
+    fn position(&self, i: usize) -> D::V;
+    /// Velocity of grain `i` in m/s.
+    fn velocity(&self, i: usize) -> D::V;
+    /// Kind of grain `i`.
+    fn kind(&self, i: usize) -> &Kind;
+    /// Identity of grain `i`: it never changes, whatever the order in memory.
+    fn identity(&self, i: usize) -> u32;
+    /// Bodies in the order of the scene.
+    fn bodies(&self) -> Vec<BodyState<D>>;
+    /// Gravity in m/s².
+    fn gravity(&self) -> D::V;
+    /// The energy budget; walks all contacts.
+    fn energies(&self) -> Energies;
+    /// Every touching pair once.
+    fn touching(&self, each: &mut dyn FnMut(TouchingPair));
+}
+
+/// What a gate asks the engine to change at the end of a step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// Take away body number `.0`.
+    RemoveBody(usize),
+}
+
+/// Something that changes the scene while it runs: a wall that goes when the grains are still.
+pub trait Gate<D: Dim, S: SpinState>: Send {
+    /// Looks and decides; called every few steps at a fixed cadence.
+    fn decide(&mut self, view: &dyn View<D, S>, out: &mut Vec<Change>);
+}
+
+/// One measured value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// Stable name, as in `summary.json`.
+    pub name: &'static str,
+    /// The value.
+    pub value: f64,
+    /// Its uncertainty (one standard deviation), if known.
+    pub uncertainty: Option<f64>,
+    /// Unit.
+    pub unit: &'static str,
+}
+
+impl Reading {
+    /// A value without a known uncertainty.
+    pub fn new(name: &'static str, value: f64, unit: &'static str) -> Self {
+        Self { name, value, uncertainty: None, unit }
+    }
+
+    /// With a standard deviation.
+    pub fn give_or_take(mut self, uncertainty: f64) -> Self {
+        self.uncertainty = Some(uncertainty);
+        self
+    }
+}
+
+/// A curve to draw or tabulate, such as the profile of a heap at one moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// The figure it belongs to, a stable name fit for a file: `profile`.
+    pub figure: &'static str,
+    /// Its own label: `0.50 s after the wall's removal`.
+    pub label: String,
+    /// Axis labels with units.
+    pub axes: [&'static str; 2],
+    /// Abscissae.
+    pub x: Vec<f64>,
+    /// Ordinates.
+    pub y: Vec<f64>,
+}
+
+/// A measure: it looks at the simulation at the output cadence and reports numbers.
+pub trait Observer<D: Dim, S: SpinState>: Send {
+    /// Looks once and gives the values of this moment: one row of `series.csv`, always the same names in the same order.
+    fn see(&mut self, view: &dyn View<D, S>) -> Vec<Reading>;
+    /// What it has to say at the end: entries of `summary.json`.
+    fn report(&self) -> Vec<Reading> {
+        Vec::new()
+    }
+    /// Curves worth a figure at the end.
+    fn curves(&self) -> Vec<Curve> {
+        Vec::new()
+    }
+}

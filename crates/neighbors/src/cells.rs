@@ -1,0 +1,130 @@
+//! A grid of cells no narrower than the reach, and the counting sort that puts grains in its order.
+
+use std::ops::Range;
+use tsubu_model::{Dim, Domain, Vector};
+
+/// Grains sorted into cells. Cells along the first axis follow each other in memory.
+pub struct CellGrid<D: Dim> {
+    low: D::V,
+    per_width: D::V,
+    count: [usize; 3],
+    periodic: [bool; 3],
+    starts: Vec<u32>,
+    /// `order[new] = old`: the order of the grains by cell, stable within a cell.
+    pub order: Vec<u32>,
+}
+
+impl<D: Dim> CellGrid<D> {
+    /// Sorts `n` grains at `position` (wrapped into the box) into cells at least `width` wide.
+    /// A non-finite position counts as lying at the low corner; the engine's health check names it.
+    pub fn new(domain: &Domain<D>, n: usize, position: impl Fn(usize) -> D::V, width: f64) -> Self {
+        let axes = D::V::AXES;
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for i in 0..n {
+            let x = position(i);
+            for a in 0..axes {
+                low[a] = low[a].min(x.axis(a));
+                high[a] = high[a].max(x.axis(a));
+            }
+        }
+        let mut periodic = [false; 3];
+        for a in 0..axes {
+            periodic[a] = domain.is_periodic(a);
+            if periodic[a] {
+                (low[a], high[a]) = (0.0, domain.period.axis(a));
+            } else if !(low[a].is_finite() && high[a].is_finite()) {
+                (low[a], high[a]) = (0.0, 0.0);
+            }
+        }
+        // A grain that flies far away must not make the grid huge: wider cells, never more than a few per grain.
+        let most = 4 * n + 64;
+        let mut width = width;
+        let mut count = [1usize; 3];
+        loop {
+            for a in 0..axes {
+                count[a] = (((high[a] - low[a]) / width).floor().min(1e9) as usize).max(1);
+            }
+            if count.iter().map(|&c| c as f64).product::<f64>() <= most as f64 {
+                break;
+            }
+            width *= 1.25;
+        }
+        let low = D::V::from_axes(|a| low[a]);
+        let per_width = D::V::from_axes(|a| {
+            let length = high[a] - low.axis(a);
+            if length > 0.0 { count[a] as f64 / length } else { 0.0 }
+        });
+        let mut grid = Self { low, per_width, count, periodic, starts: Vec::new(), order: vec![0; n] };
+        let cells = count.iter().product::<usize>();
+        let mut starts = vec![0u32; cells + 1];
+        for i in 0..n {
+            starts[grid.index(grid.cell(position(i))) + 1] += 1;
+        }
+        for c in 0..cells {
+            starts[c + 1] += starts[c];
+        }
+        let mut next = starts.clone();
+        for i in 0..n {
+            let slot = &mut next[grid.index(grid.cell(position(i)))];
+            grid.order[*slot as usize] = i as u32;
+            *slot += 1;
+        }
+        grid.starts = starts;
+        grid
+    }
+
+    fn cell(&self, x: D::V) -> [usize; 3] {
+        let mut cell = [0; 3];
+        for (a, c) in cell.iter_mut().enumerate().take(D::V::AXES) {
+            // Saturating: NaN and negative rounding give cell 0.
+            *c = (((x.axis(a) - self.low.axis(a)) * self.per_width.axis(a)) as usize).min(self.count[a] - 1);
+        }
+        cell
+    }
+
+    fn index(&self, cell: [usize; 3]) -> usize {
+        (cell[2] * self.count[1] + cell[1]) * self.count[0] + cell[0]
+    }
+
+    /// Cells to look at along one axis around cell `c`: each once, also where the box is narrow.
+    fn around(&self, axis: usize, c: usize) -> ([usize; 3], usize) {
+        let n = self.count[axis];
+        if self.periodic[axis] {
+            match n {
+                1 => ([0; 3], 1),
+                2 => ([0, 1, 0], 2),
+                _ => ([(c + n - 1) % n, c, (c + 1) % n], 3),
+            }
+        } else {
+            let (from, to) = (c.saturating_sub(1), (c + 1).min(n - 1));
+            ([from, from + 1, from + 2], to - from + 1)
+        }
+    }
+
+    /// Ranges of sorted grains that may be near `x`, in a fixed order.
+    pub fn near(&self, x: D::V, mut visit: impl FnMut(Range<usize>)) {
+        let cell = self.cell(x);
+        let (zs, nz) = self.around(2, cell[2]);
+        let (ys, ny) = self.around(1, cell[1]);
+        let (xs, nx) = self.around(0, cell[0]);
+        let in_row = nx > 0 && xs[nx - 1] + 1 == xs[0] + nx;
+        for &z in &zs[..nz] {
+            for &y in &ys[..ny] {
+                if in_row {
+                    let first = self.index([xs[0], y, z]);
+                    visit(self.starts[first] as usize..self.starts[first + nx] as usize);
+                } else {
+                    for &x in &xs[..nx] {
+                        let c = self.index([x, y, z]);
+                        visit(self.starts[c] as usize..self.starts[c + 1] as usize);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        4 * (self.starts.capacity() + self.order.capacity())
+    }
+}

@@ -1,0 +1,234 @@
+//! The folder of one run: found or made, claimed, and never shared with another run.
+
+use std::ffi::OsStr;
+use std::fs::{self, OpenOptions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Component, Path, PathBuf};
+
+use crate::RecordError;
+use crate::whole::PART_SUFFIX;
+
+/// Where runs go when no folder was asked for.
+const DEFAULT_BASE: &str = "out";
+
+/// The file by which a run claims its folder, and by which a later one knows that it may replace it.
+const CLAIM: &str = ".tsubu-run";
+
+const CLAIM_TEXT: &[u8] =
+    b"A run of tsubu wrote this folder; a later run with --force may replace what it wrote.\n";
+
+/// Every name a run writes at the top of its folder, apart from `animation.*` and unfinished parts.
+const OURS: [&str; 8] = [
+    "summary.json",
+    "series.csv",
+    "frames.pvd",
+    "frames",
+    "figures",
+    "checkpoint",
+    "scene.resolved.ron",
+    CLAIM,
+];
+
+/// Names that prove a run of ours wrote the folder; `figures` or `summary.json` could be anyone's.
+const PROOF: [&str; 2] = [CLAIM, "scene.resolved.ron"];
+
+/// A folder that belongs to this run alone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RunFolder {
+    root: PathBuf,
+}
+
+impl RunFolder {
+    /// Finds or makes the folder of a run and claims it.
+    ///
+    /// Without a `requested` path it is `out/<default_stem>`, or the next free `out/<default_stem>-2`, `-3`, …;
+    /// `force` then changes nothing.
+    /// A requested folder is made, or taken when it exists and is empty.
+    /// One that holds something is refused, unless `force` is given and an earlier run of ours wrote it:
+    /// then what that run wrote is removed, by name, and everything else in it stays.
+    /// A folder nothing shows to be ours is refused even with `force`.
+    ///
+    /// Two runs started at once never get the same folder, and a failure leaves nothing new behind.
+    pub fn create(
+        requested: Option<&Path>,
+        default_stem: &str,
+        force: bool,
+    ) -> Result<Self, RecordError> {
+        match requested {
+            Some(path) => Self::requested(path, force),
+            None => Self::numbered(Path::new(DEFAULT_BASE), default_stem),
+        }
+    }
+
+    /// The folder itself.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The path of a file or folder in it.
+    pub fn path(&self, name: impl AsRef<Path>) -> PathBuf {
+        self.root.join(name)
+    }
+
+    fn numbered(base: &Path, stem: &str) -> Result<Self, RecordError> {
+        if !is_plain_name(stem) {
+            return Err(RecordError::arguments(
+                format!("'{stem}' cannot be the name of a folder"),
+                base,
+                "Rename the scene file, or choose a folder with --out.",
+            ));
+        }
+        let made_base = match fs::create_dir(base) {
+            Ok(()) => true,
+            Err(e) if e.kind() == ErrorKind::AlreadyExists && base.is_dir() => false,
+            Err(e) => return Err(not_made(base, e)),
+        };
+        let folder = Self::first_free(base, stem);
+        if folder.is_err() && made_base {
+            // Only an empty folder goes, so a run that put its own there meanwhile loses nothing.
+            fs::remove_dir(base).ok();
+        }
+        folder
+    }
+
+    fn first_free(base: &Path, stem: &str) -> Result<Self, RecordError> {
+        let mut root = base.join(stem);
+        let mut number = 1u64;
+        loop {
+            match fs::create_dir(&root) {
+                Ok(()) => return Self::claim_new(root),
+                Err(e) if e.kind() == ErrorKind::AlreadyExists => {
+                    number += 1;
+                    root = base.join(format!("{stem}-{number}"));
+                }
+                Err(e) => return Err(not_made(&root, e)),
+            }
+        }
+    }
+
+    fn requested(path: &Path, force: bool) -> Result<Self, RecordError> {
+        match fs::create_dir(path) {
+            Ok(()) => return Self::claim_new(path.into()),
+            Err(e) if e.kind() == ErrorKind::AlreadyExists && path.is_dir() => {}
+            Err(e) => return Err(not_made(path, e)),
+        }
+        let found = entries(path)
+            .map_err(|e| RecordError::machine("the folder could not be read", path, e))?;
+        let proven = found.iter().any(|name| PROOF.iter().any(|p| name == p));
+        if !found.is_empty() && !proven {
+            return Err(RecordError::arguments(
+                "the folder holds files and nothing in it shows that a run of tsubu wrote it, so even --force leaves it alone",
+                path,
+                "Choose an empty or a new folder with --out.",
+            ));
+        }
+        if !found.is_empty() && !force {
+            return Err(taken(path));
+        }
+        remove_ours(path, &found)?;
+        let root = path.to_path_buf();
+        claim(&root)?;
+        Ok(Self { root })
+    }
+
+    fn claim_new(root: PathBuf) -> Result<Self, RecordError> {
+        if let Err(error) = claim(&root) {
+            fs::remove_dir(&root).ok();
+            return Err(error);
+        }
+        Ok(Self { root })
+    }
+}
+
+/// Makes the claim file, which also shows at the start, not at the first frame, that the folder can be written to.
+fn claim(root: &Path) -> Result<(), RecordError> {
+    let path = root.join(CLAIM);
+    let mut file = match OpenOptions::new().write(true).create_new(true).open(&path) {
+        Ok(file) => file,
+        Err(e) if e.kind() == ErrorKind::AlreadyExists => return Err(taken(root)),
+        Err(e) => {
+            return Err(RecordError::machine(
+                "the folder could not be written to",
+                root,
+                e,
+            ));
+        }
+    };
+    file.write_all(CLAIM_TEXT).map_err(|e| {
+        fs::remove_file(&path).ok();
+        RecordError::machine("the folder could not be written to", root, e)
+    })
+}
+
+/// Removes what a run wrote; the proofs go last, so a removal that fails half way can be tried again.
+fn remove_ours(root: &Path, found: &[std::ffi::OsString]) -> Result<(), RecordError> {
+    let is_proof = |name: &OsStr| PROOF.iter().any(|p| name == *p);
+    let ours = || found.iter().filter(|name| is_ours(name));
+    let in_order = ours()
+        .filter(|name| !is_proof(name))
+        .chain(ours().filter(|name| is_proof(name)));
+    for name in in_order {
+        let path = root.join(name);
+        remove(&path)
+            .map_err(|e| RecordError::machine("the earlier run could not be removed", &path, e))?;
+    }
+    Ok(())
+}
+
+fn remove(path: &Path) -> io::Result<()> {
+    // Of a link, the link itself is looked at and removed, never what it leads to.
+    if fs::symlink_metadata(path)?.is_dir() {
+        fs::remove_dir_all(path)
+    } else {
+        fs::remove_file(path)
+    }
+}
+
+fn is_ours(name: &OsStr) -> bool {
+    let text = name.to_string_lossy();
+    OURS.iter().any(|ours| name == *ours)
+        || text.starts_with("animation.")
+        || (text.starts_with('.') && text.ends_with(PART_SUFFIX))
+}
+
+fn entries(path: &Path) -> io::Result<Vec<std::ffi::OsString>> {
+    fs::read_dir(path)?
+        .map(|entry| entry.map(|e| e.file_name()))
+        .collect()
+}
+
+fn is_plain_name(name: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    matches!((parts.next(), parts.next()), (Some(Component::Normal(part)), None) if part == name)
+}
+
+fn taken(path: &Path) -> RecordError {
+    RecordError::arguments(
+        "the folder already holds a run",
+        path,
+        "Add --force to replace that run, choose another folder with --out, or leave out --out for a fresh one.",
+    )
+}
+
+fn not_made(path: &Path, cause: io::Error) -> RecordError {
+    let wrong = |what: &str, remedy: &str| RecordError::arguments(what, path, remedy);
+    match cause.kind() {
+        ErrorKind::AlreadyExists => wrong(
+            "it exists and is not a folder",
+            "Move that file away, or choose another folder with --out.",
+        ),
+        ErrorKind::NotADirectory => wrong(
+            "a part of this path is a file, not a folder",
+            "Choose another folder with --out.",
+        ),
+        ErrorKind::NotFound => wrong(
+            "the folder it should stand in does not exist",
+            "Make that folder first, or correct the path given with --out.",
+        ),
+        _ => RecordError::machine("the folder could not be made", path, cause),
+    }
+}
+
+#[cfg(test)]
+#[path = "folder_tests.rs"]
+mod tests;
