@@ -1,2 +1,54 @@
-//! xtask
-fn main() {}
+//! `cargo xtask`: the automation of the workspace.
+//!
+//! `validate` holds the simulation against theory, `tidy` holds the sources against the invariants
+//! of the house. Both print what they found and end with exit code 1 on a failure.
+
+mod tidy;
+mod validate;
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Automation of the tsubu workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", arg_required_else_help = true)]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Hold the simulation against theory: a table, JSON in target/validate, exit 1 on a failure.
+    Validate {
+        /// Suites to run; none named = every suite.
+        suites: Vec<String>,
+        /// The long version: more steps, and figures in docs/figures.
+        #[arg(long)]
+        full: bool,
+    },
+    /// Hold the sources against the invariants of the house.
+    Tidy,
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().task {
+        Task::Validate { suites, full } => validate::run(&root(), &suites, full),
+        Task::Tidy => tidy::run(&root()),
+    };
+    match outcome {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The root of the workspace: where the sources lie, the figures go and `target` is.
+fn root() -> PathBuf {
+    let here = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    here.parent().map_or(here.clone(), PathBuf::from)
+}

@@ -24,19 +24,30 @@ fn main() {
     let coke = Repulsion::new(9.434e-2, 1.203e-3, 0.1257, 0.1257, 1.350e-3);
     let undamped = Repulsion::new(coke.epsilon, coke.sigma, 0.0, 0.0, coke.diameter);
     let reduced = 0.5 * grain.mass;
+    let range = 2f64.powf(1.0 / 6.0) * coke.sigma;
     let zeta = coke.damping_ratio(reduced);
 
-    println!("Two coke grains, d = 1.350 mm, m = {:.4e} kg, k = {:.4e} N/m, zeta = {zeta:.4}", grain.mass, coke.stiffness());
-    println!("{:>9} {:>26} {:>30} {:>22}", "", "closest approach, mm", "duration, us", "restitution");
-    println!("{:>9} {:>13} {:>12} {:>15} {:>14} {:>11} {:>10}", "v, m/s", "run", "theory", "run", "theory", "run", "linear");
+    println!(
+        "Two coke grains, d = 1.350 mm, m = {:.4e} kg, k = {:.4e} N/m, zeta = {zeta:.4}",
+        grain.mass,
+        coke.stiffness()
+    );
+    println!(
+        "{:>9} {:>26} {:>30} {:>22}",
+        "", "closest approach, r/range", "duration, us", "restitution"
+    );
+    println!(
+        "{:>9} {:>13} {:>12} {:>15} {:>14} {:>11} {:>10}",
+        "v, m/s", "run", "theory", "run", "theory", "run", "linear"
+    );
     for speed in [0.1, 1.0, 10.0] {
         let run = collide(&undamped, &grain, speed);
         let damped = collide(&coke, &grain, speed);
         let (closest, duration) = theory(&coke, reduced, speed);
         println!(
-            "{speed:>9} {:>13.7} {:>12.7} {:>15.6} {:>14.6} {:>11.5} {:>10.5}",
-            run.closest * 1e3,
-            closest * 1e3,
+            "{speed:>9} {:>13.8} {:>12.8} {:>15.6} {:>14.6} {:>11.5} {:>10.5}",
+            run.closest / range,
+            closest / range,
             run.duration * 1e6,
             duration * 1e6,
             damped.restitution,
@@ -55,14 +66,24 @@ fn collide(law: &Repulsion, grain: &Kind, speed: f64) -> Collision {
     let (mut apart, mut velocity) = (DVec3::X * range * (1.0 - 1e-12), DVec3::X * -speed);
     let (mut duration, mut closest) = (0.0, range);
     while apart.x < range {
-        let touch = Touch { apart, velocity, r2: apart.length_squared(), reach: grain.diameter(), spin: Default::default() };
+        let touch = Touch {
+            apart,
+            velocity,
+            r2: apart.length_squared(),
+            reach: grain.diameter(),
+            spin: Default::default(),
+        };
         let push = <Repulsion as ContactLaw<Space, Still>>::force(&pair, &touch, &mut [], dt);
         velocity += push.total() * (dt / reduced);
         apart += velocity * dt;
         duration += dt;
         closest = closest.min(apart.x);
     }
-    Collision { closest, duration, restitution: velocity.x / speed }
+    Collision {
+        closest,
+        duration,
+        restitution: velocity.x / speed,
+    }
 }
 
 /// r_min = σ(½ + u)^(−1/6) and t_c = (σu/3v)∫(½ + u sin θ)^(−7/6)dθ over 0…π/2, u = ½√(½m*v²/ε).
@@ -71,6 +92,11 @@ fn theory(law: &Repulsion, reduced: f64, speed: f64) -> (f64, f64) {
     // The midpoint rule converges fast enough on this smooth integrand.
     let n = 10_000;
     let h = FRAC_PI_2 / f64::from(n);
-    let sum: f64 = (0..n).map(|i| (0.5 + u * (h * (f64::from(i) + 0.5)).sin()).powf(-7.0 / 6.0)).sum();
-    (law.sigma * (0.5 + u).powf(-1.0 / 6.0), law.sigma * u / (3.0 * speed) * h * sum)
+    let sum: f64 = (0..n)
+        .map(|i| (0.5 + u * (h * (f64::from(i) + 0.5)).sin()).powf(-7.0 / 6.0))
+        .sum();
+    (
+        law.sigma * (0.5 + u).powf(-1.0 / 6.0),
+        law.sigma * u / (3.0 * speed) * h * sum,
+    )
 }

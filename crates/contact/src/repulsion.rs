@@ -6,7 +6,7 @@ use tsubu_model::{Constants, ContactLaw, Dim, Kind, Linear, Push, Quantity, Spin
 /// 2^(1/6): range of the repulsion over σ.
 const RANGE_OVER_SIGMA: f64 = 1.122_462_048_309_373;
 /// 72·2^(−1/3): contact stiffness φ''(r_c) over ε/σ².
-const STIFFNESS_FACTOR: f64 = 57.146_437_896_493_38;
+const STIFFNESS_FACTOR: f64 = 57.146_437_870_855;
 
 /// Repulsion of Lennard-Jones form (Weeks–Chandler–Andersen) with viscous damping: paper A's law for coke.
 ///
@@ -56,7 +56,7 @@ pub struct Repulsion<G: Damping = Isotropic> {
     damping: PhantomData<G>,
 }
 
-/// Damping −γ v, without projection: γn = γt.
+/// Damping −γ v, without projection: γ = γn whatever γt says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Isotropic;
 /// Damping −γn vn − γt vt.
@@ -65,11 +65,17 @@ pub struct PerDirection;
 
 /// How the damping acts, as a type: the isotropic one removes work from the inner loop.
 pub trait Damping: Copy + Default + Send + Sync + 'static {
+    /// γt as the force has it.
+    fn tangential(pair: &RepulsionPair) -> f64;
     /// The viscous force.
     fn force<D: Dim>(pair: &RepulsionPair, apart: D::V, velocity: D::V, r2: f64) -> D::V;
 }
 
 impl Damping for Isotropic {
+    fn tangential(pair: &RepulsionPair) -> f64 {
+        pair.normal_damping
+    }
+
     #[inline(always)]
     fn force<D: Dim>(pair: &RepulsionPair, _apart: D::V, velocity: D::V, _r2: f64) -> D::V {
         velocity * -pair.normal_damping
@@ -77,6 +83,10 @@ impl Damping for Isotropic {
 }
 
 impl Damping for PerDirection {
+    fn tangential(pair: &RepulsionPair) -> f64 {
+        pair.tangential_damping
+    }
+
     #[inline(always)]
     fn force<D: Dim>(pair: &RepulsionPair, apart: D::V, velocity: D::V, r2: f64) -> D::V {
         // n (n·v) = apart (apart·v)/r²: the projection needs no root.
@@ -245,7 +255,7 @@ impl<G: Damping, D: Dim, S: SpinState> ContactLaw<D, S> for Repulsion<G> {
             normal_stiffness: pair.stiffness(touch.r2),
             tangential_stiffness: 0.0,
             normal_damping: pair.normal_damping,
-            tangential_damping: pair.tangential_damping,
+            tangential_damping: G::tangential(pair),
         }
     }
 }

@@ -62,12 +62,18 @@ impl Claims {
     /// The law has Coulomb friction: its slip force never exceeds μ times its normal force.
     /// Without this claim the slip force must be zero.
     pub fn friction(self, coefficient: f64) -> Self {
-        Self { friction: Some(coefficient), ..self }
+        Self {
+            friction: Some(coefficient),
+            ..self
+        }
     }
 
     /// The law never pulls: its normal force is never negative.
     pub fn never_pulls(self) -> Self {
-        Self { tension: Tension::Never, ..self }
+        Self {
+            tension: Tension::Never,
+            ..self
+        }
     }
 }
 

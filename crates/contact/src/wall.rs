@@ -17,8 +17,9 @@ use tsubu_model::{Constants, ContactLaw, Dim, Kind, Linear, Push, Quantity, Spin
 /// ([`restitution::ratio_from_restitution`]): the restitution asked for is the one got. The relation
 /// that the paper prints ends at zero overlap and would give 0.550 for 0.5 asked.
 ///
-/// What it is *not*: there is no static friction; a grain at rest on a slope starts to slide at
-/// μ < tan θ and below that creeps by at most one step's rounding.
+/// What it is *not*: there is no static friction; a grain at rest on a slope slides where μ < tan θ
+/// and below that creeps at about g sin θ Δt. The cap looks at one contact: a grain that sticks to two
+/// surfaces at once feels it twice.
 ///
 /// Source: `Sumitomo2024`, section 5.3; restitution `Schwager2007`.
 ///
@@ -84,7 +85,7 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for RepulsiveWall {
         let pressed = (elastic - pair.damping * closing * touching).max(0.0);
         let sliding = touch.velocity - normal * closing;
         let slip = sliding.length();
-        let drag = (pair.friction * pressed).min(pair.mass * slip / dt) / slip.max(f64::MIN_POSITIVE);
+        let drag = (pair.friction * pressed / slip.max(f64::MIN_POSITIVE)).min(pair.mass / dt);
         Push {
             elastic: normal * elastic,
             viscous: normal * (pressed - elastic),
@@ -103,13 +104,14 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for RepulsiveWall {
         }
         let push = <Self as ContactLaw<D, S>>::force(pair, touch, &mut [], dt);
         let normal = touch.normal();
+        let pressed = (push.elastic + push.viscous).dot(normal);
         let slip = (touch.velocity - normal * touch.velocity.dot(normal)).length();
         Linear {
             normal_stiffness: pair.repulsion.stiffness(touch.r2),
             tangential_stiffness: 0.0,
             normal_damping: pair.damping,
             // Friction as the dashpot that gives the same force at this slip.
-            tangential_damping: push.slip.length() / slip.max(f64::MIN_POSITIVE),
+            tangential_damping: (pair.friction * pressed / slip.max(f64::MIN_POSITIVE)).min(pair.mass / dt),
         }
     }
 }

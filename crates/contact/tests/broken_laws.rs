@@ -2,7 +2,10 @@
 
 use tsubu_contact::testing::{Check, Claims, breaches, collide, conforms, rebounds_with};
 use tsubu_contact::{Repulsion, RepulsiveWall, RepulsiveWallPair};
-use tsubu_model::{Constants, ContactLaw, Dim, Kind, Linear, Numbers, Push, Quantity, Space, SpinState, Still, Touch, Vector};
+use tsubu_model::{
+    Constants, ContactLaw, Dim, Kind, Linear, Numbers, Push, Quantity, Space, SpinState, Still,
+    Touch, Vector,
+};
 
 /// One thing wrong with a law that is otherwise [`RepulsiveWall`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,30 +63,50 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for Broken {
         <RepulsiveWall as ContactLaw<D, S>>::range(pair)
     }
 
-    fn force((pair, fault): &Self::Pair, touch: &Touch<D, S>, memory: &mut [f64; 1], dt: f64) -> Push<D, S> {
+    fn force(
+        (pair, fault): &Self::Pair,
+        touch: &Touch<D, S>,
+        memory: &mut [f64; 1],
+        dt: f64,
+    ) -> Push<D, S> {
         let mut push = <RepulsiveWall as ContactLaw<D, S>>::force(pair, touch, &mut [], dt);
-        let inside = if touch.r2 < pair.repulsion.range2 { 1.0 } else { 0.0 };
+        let inside = if touch.r2 < pair.repulsion.range2 {
+            1.0
+        } else {
+            0.0
+        };
         let r = touch.r();
         match fault {
-            Fault::StrayRoot | Fault::ForgottenConstant | Fault::PotentialOff | Fault::StiffnessOfFirstTouch => {}
+            Fault::StrayRoot
+            | Fault::ForgottenConstant
+            | Fault::PotentialOff
+            | Fault::StiffnessOfFirstTouch => {}
             Fault::StrayLength => push.elastic = push.elastic * r.sqrt(),
-            Fault::NotOddInTheLastBit if touch.apart.axis(0) > 0.0 => push.elastic = push.elastic * (1.0 + f64::EPSILON),
+            Fault::NotOddInTheLastBit if touch.apart.axis(0) > 0.0 => {
+                push.elastic = push.elastic * (1.0 + f64::EPSILON)
+            }
             Fault::NotOddInTheLastBit => {}
             Fault::FrictionOverTheLimit => push.slip = push.slip * 1.001,
             Fault::PullKept => {
                 let n = touch.normal();
                 push.viscous = n * (-pair.damping * touch.velocity.dot(n) * inside);
             }
-            Fault::Jump => push.elastic += touch.normal() * (-1e-3 * inside * pair.repulsion.epsilon24 / r),
+            Fault::Jump => {
+                push.elastic += touch.normal() * (-1e-3 * inside * pair.repulsion.epsilon24 / r)
+            }
             Fault::TailKept => {
                 let s6 = (pair.repulsion.sigma2 / touch.r2).powi(3);
-                push.elastic = touch.apart * (pair.repulsion.epsilon24 / touch.r2 * s6 * (2.0 * s6 - 1.0));
+                push.elastic =
+                    touch.apart * (pair.repulsion.epsilon24 / touch.r2 * s6 * (2.0 * s6 - 1.0));
             }
-            Fault::NanFarAway => push.elastic = push.elastic * (touch.r2.powi(6) / touch.r2.powi(6)),
+            Fault::NanFarAway => {
+                push.elastic = push.elastic * (touch.r2.powi(6) / touch.r2.powi(6))
+            }
             Fault::DashpotDrives => push.viscous = -push.viscous,
             Fault::SpecialAxis => {
                 let viscous = push.viscous;
-                push.viscous = D::V::from_axes(|a| viscous.axis(a) * if a == 0 { 1.01 } else { 1.0 });
+                push.viscous =
+                    D::V::from_axes(|a| viscous.axis(a) * if a == 0 { 1.01 } else { 1.0 });
             }
             Fault::UnloadsHarder => {
                 let parting = memory[0] != 0.0 && r > memory[0];
@@ -95,7 +118,11 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for Broken {
     }
 
     fn stored((pair, fault): &Self::Pair, touch: &Touch<D, S>, _memory: &[f64; 1]) -> f64 {
-        let factor = if *fault == Fault::PotentialOff { 1.0001 } else { 1.0 };
+        let factor = if *fault == Fault::PotentialOff {
+            1.0001
+        } else {
+            1.0
+        };
         factor * <RepulsiveWall as ContactLaw<D, S>>::stored(pair, touch, &[])
     }
 
@@ -106,7 +133,8 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for Broken {
         }
         if *fault == Fault::StiffnessOfFirstTouch && linear.normal_stiffness > 0.0 {
             // φ''(r_c) = 72·2^(−1/3) ε/σ², independent of the overlap.
-            linear.normal_stiffness = 57.146_437_9 * pair.repulsion.epsilon24 / 24.0 / pair.repulsion.sigma2;
+            linear.normal_stiffness =
+                57.146_437_9 * pair.repulsion.epsilon24 / 24.0 / pair.repulsion.sigma2;
         }
         linear
     }
@@ -129,14 +157,28 @@ impl Constants for Broken {
 fn broken(fault: Fault) -> Broken {
     let grains = Repulsion::new(9.434e-2, 1.203e-3, 0.1257, 0.1257, 1.350e-3);
     // One per cent of hysteresis would drown in the dashpot of e = 0.5.
-    let restitution = if fault == Fault::UnloadsHarder { None } else { Some(0.5) };
-    Broken { wall: RepulsiveWall { grains, restitution, friction: 0.413 }, fault }
+    let restitution = if fault == Fault::UnloadsHarder {
+        None
+    } else {
+        Some(0.5)
+    };
+    Broken {
+        wall: RepulsiveWall {
+            grains,
+            restitution,
+            friction: 0.413,
+        },
+        fault,
+    }
 }
 
 fn failed(fault: Fault) -> Vec<Check> {
     let claims = Claims::default().friction(0.413).never_pulls();
     let grain = Kind::sphere(1.350e-3, 1370.0);
-    breaches::<Space, _>(&broken(fault), &grain, &Kind::immovable(), claims).iter().map(|b| b.check).collect()
+    breaches::<Space, _>(&broken(fault), &grain, &Kind::immovable(), claims)
+        .iter()
+        .map(|b| b.check)
+        .collect()
 }
 
 /// Faults of one kind fail one check and no other: the suite says what is wrong, not just that it is.
@@ -160,7 +202,10 @@ fn a_single_fault_is_named() {
 fn a_fault_with_consequences_is_named_with_them() {
     let expected: [(Fault, &[Check]); 8] = [
         // Slope and potential stay those of the unscaled force.
-        (Fault::StrayLength, &[Check::Potential, Check::Linear, Check::Units]),
+        (
+            Fault::StrayLength,
+            &[Check::Potential, Check::Linear, Check::Units],
+        ),
         // Where the clamp makes the two parts cancel, one per cent more of one of them pulls.
         (Fault::SpecialAxis, &[Check::Turning, Check::Tension]),
         (Fault::PullKept, &[Check::Tension]),
@@ -173,7 +218,10 @@ fn a_fault_with_consequences_is_named_with_them() {
     ];
     for (fault, checks) in expected {
         let failed = failed(fault);
-        assert!(checks.iter().all(|check| failed.contains(check)), "{fault:?}: {failed:?}");
+        assert!(
+            checks.iter().all(|check| failed.contains(check)),
+            "{fault:?}: {failed:?}"
+        );
     }
 }
 
@@ -186,7 +234,13 @@ fn a_kept_pull_spoils_the_restitution() {
     let slow = collide::<Space, _>(&broken(Fault::PullKept), &grain, &Kind::immovable(), 0.01);
     let restitution = slow.map_or(f64::NAN, |rebound| rebound.restitution);
     assert!((restitution - 0.43629).abs() < 5e-5, "got {restitution}");
-    rebounds_with::<Space, _>(&broken(Fault::PullKept), &grain, &Kind::immovable(), 0.5, 0.012);
+    rebounds_with::<Space, _>(
+        &broken(Fault::PullKept),
+        &grain,
+        &Kind::immovable(),
+        0.5,
+        0.012,
+    );
 }
 
 /// The report names check, state and numbers, and the unit that the formula treats worst
@@ -195,9 +249,20 @@ fn a_kept_pull_spoils_the_restitution() {
 fn the_report_says_what_where_and_how_much() {
     let claims = Claims::default().friction(0.413);
     let grain = Kind::sphere(1.350e-3, 1370.0);
-    let found = breaches::<Space, _>(&broken(Fault::StrayRoot), &grain, &Kind::immovable(), claims);
+    let found = breaches::<Space, _>(
+        &broken(Fault::StrayRoot),
+        &grain,
+        &Kind::immovable(),
+        claims,
+    );
     let report = found[0].to_string();
-    for part in ["Units: the same force in any units", "time × 1/7.3", "in SI", "at overlap", "times the tolerance"] {
+    for part in [
+        "Units: the same force in any units",
+        "time × 1/7.3",
+        "in SI",
+        "at overlap",
+        "times the tolerance",
+    ] {
         assert!(report.contains(part), "{part} is missing in: {report}");
     }
 }
@@ -206,7 +271,12 @@ fn the_report_says_what_where_and_how_much() {
 #[should_panic(expected = "slip force")]
 fn friction_must_be_claimed() {
     let grain = Kind::sphere(1.350e-3, 1370.0);
-    conforms(&broken(Fault::StrayRoot).wall, &grain, &Kind::immovable(), Claims::default());
+    conforms(
+        &broken(Fault::StrayRoot).wall,
+        &grain,
+        &Kind::immovable(),
+        Claims::default(),
+    );
 }
 
 /// A law whose range is no number is refused before any other check.
@@ -215,7 +285,10 @@ fn a_law_without_scales_is_refused() {
     let law = Repulsion::new(f64::NAN, 1.203e-3, 0.1, 0.1, 1.350e-3);
     let grain = Kind::sphere(1.350e-3, 1370.0);
     let found = breaches::<Space, _>(&law, &grain, &grain, Claims::default());
-    assert_eq!(found.iter().map(|b| b.check).collect::<Vec<_>>(), [Check::Scales]);
+    assert_eq!(
+        found.iter().map(|b| b.check).collect::<Vec<_>>(),
+        [Check::Scales]
+    );
     let zero = <Repulsion as ContactLaw<Space, Still>>::Memory::zero();
     assert!(zero.values().is_empty(), "the exemplar remembers nothing");
 }

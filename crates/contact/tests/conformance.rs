@@ -17,7 +17,12 @@ fn grain() -> Kind {
 #[test]
 fn repulsion_conforms() {
     conforms(&coke(), &grain(), &grain(), Claims::default());
-    conforms(&coke(), &grain(), &Kind::sphere(2.1e-3, 1370.0), Claims::default());
+    conforms(
+        &coke(),
+        &grain(),
+        &Kind::sphere(2.1e-3, 1370.0),
+        Claims::default(),
+    );
 }
 
 #[test]
@@ -25,12 +30,22 @@ fn repulsion_per_direction_conforms() {
     let mut law = coke().per_direction();
     law.tangential_damping = 0.4;
     conforms(&law, &grain(), &grain(), Claims::default());
-    conforms(&law, &Kind::sphere(0.7e-3, 2650.0), &grain(), Claims::default());
+    conforms(
+        &law,
+        &Kind::sphere(0.7e-3, 2650.0),
+        &grain(),
+        Claims::default(),
+    );
 }
 
 #[test]
 fn a_driven_grain_of_infinite_mass_conforms() {
-    let driven = Kind { mass: f64::INFINITY, inertia: f64::INFINITY, weight: 0.0, ..Kind::sphere(0.9e-3, 1370.0) };
+    let driven = Kind {
+        mass: f64::INFINITY,
+        inertia: f64::INFINITY,
+        weight: 0.0,
+        ..Kind::sphere(0.9e-3, 1370.0)
+    };
     conforms(&coke(), &grain(), &driven, Claims::default());
 }
 
@@ -38,7 +53,11 @@ fn a_driven_grain_of_infinite_mass_conforms() {
 fn repulsive_walls_conform() {
     for restitution in [None, Some(0.5), Some(0.05)] {
         for friction in [0.0, 0.413] {
-            let wall = RepulsiveWall { grains: coke(), restitution, friction };
+            let wall = RepulsiveWall {
+                grains: coke(),
+                restitution,
+                friction,
+            };
             let claims = Claims::default().friction(friction).never_pulls();
             conforms(&wall, &grain(), &Kind::immovable(), claims);
         }
@@ -52,10 +71,18 @@ fn repulsive_walls_conform() {
 #[test]
 fn a_wall_rebounds_as_asked() {
     for e in [0.1, 0.3, 0.5, 0.9] {
-        let wall = RepulsiveWall { grains: coke(), restitution: Some(e), friction: 0.413 };
+        let wall = RepulsiveWall {
+            grains: coke(),
+            restitution: Some(e),
+            friction: 0.413,
+        };
         rebounds_with::<Space, _>(&wall, &grain(), &Kind::immovable(), e, 0.012);
     }
-    let elastic = RepulsiveWall { grains: coke(), restitution: None, friction: 0.413 };
+    let elastic = RepulsiveWall {
+        grains: coke(),
+        restitution: None,
+        friction: 0.413,
+    };
     rebounds_with::<Plane, _>(&elastic, &grain(), &Kind::immovable(), 1.0, 1e-5);
 }
 

@@ -42,9 +42,14 @@ fn quadrature(speed: f64) -> (f64, f64) {
     let f = |theta: f64| (0.5 + u * theta.sin()).powf(-7.0 / 6.0);
     let n = 200;
     let h = FRAC_PI_2 / f64::from(n);
-    let inner: f64 = (1..n).map(|i| if i % 2 == 1 { 4.0 } else { 2.0 } * f(h * f64::from(i))).sum();
+    let inner: f64 = (1..n)
+        .map(|i| if i % 2 == 1 { 4.0 } else { 2.0 } * f(h * f64::from(i)))
+        .sum();
     let integral = h / 3.0 * (f(0.0) + inner + f(FRAC_PI_2));
-    (SIGMA * (0.5 + u).powf(-1.0 / 6.0), SIGMA * u / (3.0 * speed) * integral)
+    (
+        SIGMA * (0.5 + u).powf(-1.0 / 6.0),
+        SIGMA * u / (3.0 * speed) * integral,
+    )
 }
 
 /// Closest approach, time within the range and restitution of a head-on collision: Runge–Kutta of
@@ -56,16 +61,31 @@ fn collide(law: &Repulsion, speed: f64) -> (f64, f64, f64) {
         // One hair inside the range: the stages of the last step must not feel the jump of the dashpot.
         let x = x.min(range * (1.0 - 1e-14));
         let (apart, velocity) = (DVec3::X * x, DVec3::X * v);
-        let touch = Touch { apart, velocity, r2: x * x, reach: 1.350e-3, spin: Default::default() };
+        let touch = Touch {
+            apart,
+            velocity,
+            r2: x * x,
+            reach: 1.350e-3,
+            spin: Default::default(),
+        };
         let push = <Repulsion as ContactLaw<Space, Still>>::force(&pair, &touch, &mut [], 1e-9);
         push.total().x / reduced_mass()
     };
     let step = |x: f64, v: f64, h: f64| {
         let (v1, a1) = (v, acceleration(x, v));
-        let (v2, a2) = (v + 0.5 * h * a1, acceleration(x + 0.5 * h * v1, v + 0.5 * h * a1));
-        let (v3, a3) = (v + 0.5 * h * a2, acceleration(x + 0.5 * h * v2, v + 0.5 * h * a2));
+        let (v2, a2) = (
+            v + 0.5 * h * a1,
+            acceleration(x + 0.5 * h * v1, v + 0.5 * h * a1),
+        );
+        let (v3, a3) = (
+            v + 0.5 * h * a2,
+            acceleration(x + 0.5 * h * v2, v + 0.5 * h * a2),
+        );
         let (v4, a4) = (v + h * a3, acceleration(x + h * v3, v + h * a3));
-        (x + h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4), v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4))
+        (
+            x + h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4),
+            v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4),
+        )
     };
     let h = PI * (reduced_mass() / law.stiffness()).sqrt() / 2000.0;
     let (mut t, mut x, mut v, mut closest) = (0.0, range, -speed, range);
@@ -87,7 +107,11 @@ fn the_quadrature_gives_the_printed_numbers() {
     let range = 2f64.powf(1.0 / 6.0) * SIGMA;
     for (speed, closest, duration, _) in TABLE {
         let (r_min, t_c) = quadrature(speed);
-        assert!((r_min / range - closest).abs() < 1e-8, "{speed} m/s: {}", r_min / range);
+        assert!(
+            (r_min / range - closest).abs() < 1e-8,
+            "{speed} m/s: {}",
+            r_min / range
+        );
         assert!((t_c - duration).abs() < 1e-12, "{speed} m/s: {t_c:e}");
     }
     // The harmonic limit π√(m*/k).
@@ -104,9 +128,18 @@ fn undamped_collisions_follow_the_quadrature() {
         let (r_min, t_c) = quadrature(speed);
         let (closest, duration, restitution) = collide(&coke(0.0), speed);
         let (overlap, expected) = (1.0 - closest / range, 1.0 - r_min / range);
-        assert!((overlap / expected - 1.0).abs() < 1e-4, "{speed} m/s: overlap {overlap:e}, {expected:e}");
-        assert!((duration / t_c - 1.0).abs() < 1e-4, "{speed} m/s: {duration:e} s, {t_c:e} s");
-        assert!((restitution - 1.0).abs() < 1e-6, "{speed} m/s: e = {restitution}");
+        assert!(
+            (overlap / expected - 1.0).abs() < 1e-4,
+            "{speed} m/s: overlap {overlap:e}, {expected:e}"
+        );
+        assert!(
+            (duration / t_c - 1.0).abs() < 1e-4,
+            "{speed} m/s: {duration:e} s, {t_c:e} s"
+        );
+        assert!(
+            (restitution - 1.0).abs() < 1e-6,
+            "{speed} m/s: e = {restitution}"
+        );
     }
 }
 
@@ -116,9 +149,15 @@ fn undamped_collisions_follow_the_quadrature() {
 fn damped_collisions_rebound_as_in_the_table() {
     for (speed, _, _, expected) in TABLE {
         let (_, _, e) = collide(&coke(0.1257), speed);
-        assert!((e / expected - 1.0).abs() < 1e-4, "{speed} m/s: {e}, table {expected}");
+        assert!(
+            (e / expected - 1.0).abs() < 1e-4,
+            "{speed} m/s: {e}, table {expected}"
+        );
         let suite = testing::collide::<Space, _>(&coke(0.1257), &grain(), &grain(), speed);
         let e = suite.map_or(f64::NAN, |rebound| rebound.restitution);
-        assert!((e / expected - 1.0).abs() < 1e-4, "suite, {speed} m/s: {e}, table {expected}");
+        assert!(
+            (e / expected - 1.0).abs() < 1e-4,
+            "suite, {speed} m/s: {e}, table {expected}"
+        );
     }
 }

@@ -1,1 +1,36 @@
-//! TODO
+//! Measures: what a running simulation is asked, and how the answer is computed.
+//!
+//! Read in this order: [`Deposit`] (which grains count, and how densely they lie), [`Profile`] (the
+//! height of a deposit along x), [`slope`] (crest, front, two angles of repose), and the observers
+//! [`Heap`], [`Energy`], [`Structure`], [`Balance`]. Nothing here changes a simulation.
+//!
+//! Lengths in m, angles in degrees, uncertainties one standard deviation. The x axis is level, z is up.
+//!
+//! ```
+//! use tsubu_measure::{Profile, slope::{Stand, flank_angle}};
+//! // A flank that falls 4 m over 10 m: atan 0.4 = 21.80°.
+//! let x: Vec<f64> = (0..30).map(|i| i as f64 + 0.5).collect();
+//! let height: Vec<f64> = x.iter().map(|x| (10.0 - 0.4 * x).max(0.0)).collect();
+//! let profile = Profile { x, height, bin: 1.0, bulk_fraction: 0.6, bulk_uncertainty: 0.0 };
+//! let stand = Stand { diameter: 1.0, back: 0.0, far: None };
+//! assert!((flank_angle(&profile, &stand).value - 21.80).abs() < 0.01);
+//! ```
+
+mod balance;
+mod deposit;
+mod energy;
+mod fit;
+mod heap;
+mod profile;
+mod slices;
+pub mod slope;
+mod structure;
+
+pub use balance::Balance;
+pub use deposit::Deposit;
+pub use energy::Energy;
+pub use fit::Line;
+pub use heap::{Heap, HeapOptions};
+pub use profile::{Profile, ProfileOptions};
+pub use slices::Slices;
+pub use structure::Structure;

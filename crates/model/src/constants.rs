@@ -47,9 +47,10 @@ impl Constants for crate::Kind {
         vec![("diameter", Quantity::Length, self.diameter()), ("mass", Quantity::Mass, self.mass), ("weight", Quantity::Mass, self.weight)]
     }
 
-    /// Inertia follows as that of a solid sphere.
+    /// Inertia goes with mass × length².
     fn mapped(&self, mut f: impl FnMut(Quantity, f64) -> f64) -> Self {
-        let weight = f(Quantity::Mass, self.weight);
-        Self { weight, ..Self::with_mass(f(Quantity::Length, self.diameter()), f(Quantity::Mass, self.mass)) }
+        let (radius, mass, weight) = (0.5 * f(Quantity::Length, self.diameter()), f(Quantity::Mass, self.mass), f(Quantity::Mass, self.weight));
+        let inertia = if self.inertia.is_finite() { self.inertia * (mass / self.mass) * (radius / self.radius).powi(2) } else { self.inertia };
+        Self { radius, mass, inertia, weight }
     }
 }

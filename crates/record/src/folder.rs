@@ -70,6 +70,18 @@ impl RunFolder {
         self.root.join(name)
     }
 
+    /// Makes a folder inside this one; it may be there already.
+    ///
+    /// # Errors
+    /// When the machine refuses.
+    pub fn make(&self, name: &str) -> Result<PathBuf, RecordError> {
+        let path = self.path(name);
+        match std::fs::create_dir_all(&path) {
+            Ok(()) => Ok(path),
+            Err(cause) => Err(RecordError::machine("the folder could not be made", &path, cause)),
+        }
+    }
+
     fn numbered(base: &Path, stem: &str) -> Result<Self, RecordError> {
         if !is_plain_name(stem) {
             return Err(RecordError::arguments(

@@ -1,2 +1,41 @@
 //! The command `tsubu`.
-fn main() {}
+
+mod arguments;
+mod trouble;
+mod shipped;
+mod check;
+mod run;
+mod clock;
+mod progress;
+mod rows;
+mod film;
+mod figures;
+mod ending;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = match arguments::Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(message) => {
+            let code = if message.use_stderr() { 2 } else { 0 };
+            // A closed pipe is not worth a panic.
+            let _ = message.print();
+            return ExitCode::from(code);
+        }
+    };
+    let done = match arguments.command {
+        arguments::Command::Run(wish) => run::run(&wish),
+        arguments::Command::Check(wish) => check::check(&wish),
+        arguments::Command::Scenes => shipped::list(),
+        arguments::Command::Init { name } => shipped::init(&name),
+    };
+    match done {
+        Ok(code) => ExitCode::from(code),
+        Err(trouble) => {
+            eprintln!("{trouble}");
+            ExitCode::from(trouble.exit_code())
+        }
+    }
+}

@@ -24,7 +24,15 @@ pub(super) fn closed_paths<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -
     });
     let paths: [(&str, Vec<D::V>); 3] = [
         ("in and out", vec![point(1.02, 0.0), point(0.98, 0.0)]),
-        ("in, along and out", vec![point(1.02, 0.0), point(0.99, 0.0), point(0.97, 0.05), point(1.02, 0.05)]),
+        (
+            "in, along and out",
+            vec![
+                point(1.02, 0.0),
+                point(0.99, 0.0),
+                point(0.97, 0.05),
+                point(1.02, 0.05),
+            ],
+        ),
         ("round a circle", circle.collect()),
     ];
     for (name, corners) in paths {
@@ -36,7 +44,9 @@ pub(super) fn closed_paths<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -
                 worst.see(work.max(0.0), 1e-4 * scale, || {
                     format!("{name}, {way}, at {speed:e} m/s: gained {work:e} J, stored at most {most:e} J on the way")
                 });
-                worst.demand(!work.is_nan(), || format!("{name}, {way}, at {speed:e} m/s: the work is {work}"));
+                worst.demand(!work.is_nan(), || {
+                    format!("{name}, {way}, at {speed:e} m/s: the work is {work}")
+                });
             }
         }
     }
@@ -44,7 +54,11 @@ pub(super) fn closed_paths<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -
 }
 
 /// Work of the contact on the grain along a closed polygon, and the largest energy stored on the way.
-fn work_along<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>, corners: &[D::V], speed: f64) -> (f64, f64) {
+fn work_along<D: Dim, L: ContactLaw<D, Still>>(
+    case: &Case<D, L>,
+    corners: &[D::V],
+    speed: f64,
+) -> (f64, f64) {
     let mut memory = L::Memory::zero();
     let (mut work, mut most) = (0.0, 0.0_f64);
     for (i, &from) in corners.iter().enumerate() {
@@ -53,8 +67,13 @@ fn work_along<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>, corners: &[D::
         let dt = piece.length() / speed;
         for j in 0..PIECES {
             let apart = from + edge * ((j as f64 + 0.5) / PIECES as f64);
-            let touch = case.at(State { apart, velocity: piece * (1.0 / dt) });
-            work += L::force(&case.pair, &touch, &mut memory, dt).total().dot(piece);
+            let touch = case.at(State {
+                apart,
+                velocity: piece * (1.0 / dt),
+            });
+            work += L::force(&case.pair, &touch, &mut memory, dt)
+                .total()
+                .dot(piece);
             most = most.max(L::stored(&case.pair, &touch, &memory));
         }
     }
@@ -74,9 +93,15 @@ pub(super) fn collisions<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -> 
     let mut worst = Worst::of(Check::Collision);
     for against in [Against::Sphere, Against::Flat] {
         for speed in [1e-3, 1e-2].map(|s| s * case.range * case.rate) {
-            for degrees in [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 76.0, 80.0, 85.0, 88.0, 89.5] {
+            for degrees in [
+                0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 76.0, 80.0, 85.0, 88.0, 89.5,
+            ] {
                 let gain = gain(case, against, speed, degrees);
-                let words = || format!("{against:?}, {degrees}° off the normal, {speed:e} m/s: gained {gain:e} of the energy");
+                let words = || {
+                    format!(
+                        "{against:?}, {degrees}° off the normal, {speed:e} m/s: gained {gain:e} of the energy"
+                    )
+                };
                 worst.see(gain.max(0.0), 1e-5, words);
                 worst.demand(!gain.is_nan(), words);
             }
@@ -87,7 +112,12 @@ pub(super) fn collisions<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -> 
 
 /// Energy after a collision over that before, less one. A contact that does not end (an overdamped
 /// law may creep for ever) is judged by what it then holds.
-fn gain<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>, against: Against, speed: f64, degrees: f64) -> f64 {
+fn gain<D: Dim, L: ContactLaw<D, Still>>(
+    case: &Case<D, L>,
+    against: Against,
+    speed: f64,
+    degrees: f64,
+) -> f64 {
     let (n, t) = frame::<D::V>(9);
     let (sin, cos) = degrees.to_radians().sin_cos();
     let dt = std::f64::consts::PI / (case.rate * STEPS);

@@ -9,18 +9,32 @@ use tsubu_model::{ContactLaw, Dim, Numbers, Still, Vector};
 /// With a displacement h = 3e-4 δ of an overlap δ the difference is wrong by about 4h²/(rδ) ≤ 2e-8
 /// for the steepest power law, and a stored energy of rounding 1e-17 k r² adds 1e-17 r²/(hδ) ≤ 5e-8
 /// from δ = 1e-3 r on; 1e-6 of the force stands clear of both.
-pub(super) fn follows_potential<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -> Option<Breach> {
+pub(super) fn follows_potential<D: Dim, L: ContactLaw<D, Still>>(
+    case: &Case<D, L>,
+) -> Option<Breach> {
     let mut worst = Worst::of(Check::Potential);
     for state in case.states(1e-3) {
-        let state = State { velocity: D::V::ZERO, ..state };
+        let state = State {
+            velocity: D::V::ZERO,
+            ..state
+        };
         let h = 3e-4 * (case.range - state.apart.length());
         let slope = D::V::from_axes(|a| {
-            let moved = |by: f64| case.stored(State { apart: state.apart + axis::<D::V>(a) * by, ..state });
+            let moved = |by: f64| {
+                case.stored(State {
+                    apart: state.apart + axis::<D::V>(a) * by,
+                    ..state
+                })
+            };
             (moved(h) - moved(-h)) / (2.0 * h)
         });
         let elastic = case.push(state).elastic;
         worst.see((elastic + slope).length(), 1e-6 * slope.length(), || {
-            format!("elastic force {elastic:?} N, −d(stored)/dx = {:?} N, {}", -slope, case.words(state))
+            format!(
+                "elastic force {elastic:?} N, −d(stored)/dx = {:?} N, {}",
+                -slope,
+                case.words(state)
+            )
         });
     }
     worst.breach()
@@ -32,15 +46,24 @@ pub(super) fn only_takes<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -> 
     let mut worst = Worst::of(Check::Dashpot);
     for state in case.states(0.0) {
         let push = case.push(state);
-        let slip = if L::Memory::N == 0 { push.slip } else { D::V::ZERO };
+        let slip = if L::Memory::N == 0 {
+            push.slip
+        } else {
+            D::V::ZERO
+        };
         for (name, part) in [("viscous", push.viscous), ("slip", slip)] {
             let power = part.dot(state.velocity);
             // The product of two vectors is exact to a few units in the last place of their lengths.
             let rounding = 1e-13 * part.length() * state.velocity.length();
             worst.see(power.max(0.0), rounding, || {
-                format!("the {name} force {part:?} N drives with {power:e} W {}", case.words(state))
+                format!(
+                    "the {name} force {part:?} N drives with {power:e} W {}",
+                    case.words(state)
+                )
             });
-            worst.demand(!power.is_nan(), || format!("the {name} force is {part:?} N {}", case.words(state)));
+            worst.demand(!power.is_nan(), || {
+                format!("the {name} force is {part:?} N {}", case.words(state))
+            });
         }
     }
     worst.breach()
@@ -56,7 +79,12 @@ pub(super) fn within_coulomb<D: Dim, L: ContactLaw<D, Still>>(
         let push = case.push(state);
         let slip = push.slip.length();
         let Some(friction) = friction else {
-            worst.demand(slip == 0.0, || format!("slip force {slip:e} N without a claim of friction, {}", case.words(state)));
+            worst.demand(slip == 0.0, || {
+                format!(
+                    "slip force {slip:e} N without a claim of friction, {}",
+                    case.words(state)
+                )
+            });
             continue;
         };
         let normal = (push.elastic + push.viscous).dot(state.apart) / state.apart.length();
@@ -64,24 +92,40 @@ pub(super) fn within_coulomb<D: Dim, L: ContactLaw<D, Still>>(
         let rounding = 1e-12 * friction * (push.elastic.length() + push.viscous.length());
         let over = slip - friction * normal.max(0.0);
         worst.see(over.max(0.0), rounding, || {
-            format!("slip force {slip:e} N over μN = {:e} N, {}", friction * normal, case.words(state))
+            format!(
+                "slip force {slip:e} N over μN = {:e} N, {}",
+                friction * normal,
+                case.words(state)
+            )
         });
-        worst.demand(!over.is_nan(), || format!("slip force {:?} N, {}", push.slip, case.words(state)));
+        worst.demand(!over.is_nan(), || {
+            format!("slip force {:?} N, {}", push.slip, case.words(state))
+        });
     }
     worst.breach()
 }
 
 /// The normal force never pulls, for a law that promises so. Fast separation makes a dashpot pull.
-pub(super) fn pushes<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>, promised: bool) -> Option<Breach> {
+pub(super) fn pushes<D: Dim, L: ContactLaw<D, Still>>(
+    case: &Case<D, L>,
+    promised: bool,
+) -> Option<Breach> {
     let mut worst = Worst::of(Check::Tension);
     for state in case.states(0.0).filter(|_| promised) {
         let apart = state.apart * (1.0 / state.apart.length());
-        let leaving = State { velocity: state.velocity + apart * (0.1 * case.range * case.rate), ..state };
+        let leaving = State {
+            velocity: state.velocity + apart * (0.1 * case.range * case.rate),
+            ..state
+        };
         let push = case.push(leaving);
         let normal = push.total().dot(apart);
         let rounding = 1e-12 * (push.elastic.length() + push.viscous.length());
-        worst.see((-normal).max(0.0), rounding, || format!("normal force {normal:e} N {}", case.words(leaving)));
-        worst.demand(!normal.is_nan(), || format!("normal force {normal} {}", case.words(leaving)));
+        worst.see((-normal).max(0.0), rounding, || {
+            format!("normal force {normal:e} N {}", case.words(leaving))
+        });
+        worst.demand(!normal.is_nan(), || {
+            format!("normal force {normal} {}", case.words(leaving))
+        });
     }
     worst.breach()
 }

@@ -8,34 +8,62 @@ use tsubu_model::{ContactLaw, Dim, Linear, Numbers, Still, Vector};
 /// nearest distance tried is four units in the last place beyond it.
 pub(super) fn nothing_beyond<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -> Option<Breach> {
     let mut worst = Worst::of(Check::Range);
-    let near = [1.0 + 4.0 * f64::EPSILON, 1.0 + 1e-12, 1.0 + 1e-6, 1.1, 2.0, 100.0];
+    let near = [
+        1.0 + 4.0 * f64::EPSILON,
+        1.0 + 1e-12,
+        1.0 + 1e-6,
+        1.1,
+        2.0,
+        100.0,
+    ];
     let far = [1e29, 1e30, 3e30];
     let distances = near.map(|r| r * case.range).into_iter().chain(far);
     for distance in distances {
         for (i, direction) in directions::<D::V>().enumerate() {
             for fast in [0.0, 1.0] {
                 let velocity = scattered::<D::V>(i as u64) * (fast * case.range * case.rate);
-                exactly_nothing(case, State { apart: direction * distance, velocity }, &mut worst);
+                exactly_nothing(
+                    case,
+                    State {
+                        apart: direction * distance,
+                        velocity,
+                    },
+                    &mut worst,
+                );
             }
         }
     }
     worst.breach()
 }
 
-fn exactly_nothing<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>, state: State<D::V>, worst: &mut Worst) {
+fn exactly_nothing<D: Dim, L: ContactLaw<D, Still>>(
+    case: &Case<D, L>,
+    state: State<D::V>,
+    worst: &mut Worst,
+) {
     let touch = case.at(state);
     // A contact that has ended may still remember something.
     let mut memory = L::Memory::zero();
     memory.values_mut().fill(1.0);
     let push = L::force(&case.pair, &touch, &mut memory, case.dt);
-    let parts = [("elastic", push.elastic), ("viscous", push.viscous), ("slip", push.slip)];
+    let parts = [
+        ("elastic", push.elastic),
+        ("viscous", push.viscous),
+        ("slip", push.slip),
+    ];
     for (name, part) in parts {
-        worst.demand(part == D::V::ZERO, || format!("{name} force = {part:?} N {}", case.words(state)));
+        worst.demand(part == D::V::ZERO, || {
+            format!("{name} force = {part:?} N {}", case.words(state))
+        });
     }
     let stored = case.stored(state);
-    worst.demand(stored == 0.0, || format!("stored = {stored:e} J {}", case.words(state)));
+    worst.demand(stored == 0.0, || {
+        format!("stored = {stored:e} J {}", case.words(state))
+    });
     let linear = L::linear(&case.pair, &touch, case.dt);
-    worst.demand(linear == Linear::default(), || format!("{linear:?} {}", case.words(state)));
+    worst.demand(linear == Linear::default(), || {
+        format!("{linear:?} {}", case.words(state))
+    });
 }
 
 /// The force of resting grains grows from zero: at an overlap δ it is at most 2kδ, k the law's own
@@ -44,13 +72,21 @@ pub(super) fn begins_gently<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) 
     let mut worst = Worst::of(Check::Rest);
     for overlap in [1e-9, 1e-6] {
         let apart = axis::<D::V>(D::UP) * (case.range * (1.0 - overlap));
-        let state = State { apart, velocity: D::V::ZERO };
+        let state = State {
+            apart,
+            velocity: D::V::ZERO,
+        };
         let force = case.push(state).total().length();
         let slope = L::linear(&case.pair, &case.at(state), case.dt).normal_stiffness;
         // The distance is known to a few units of its last place.
         let rounding = 1e-14 * case.stiffness * case.range;
         let most = 2.0 * slope * overlap * case.range + rounding;
-        worst.see(force, most, || format!("force = {force:e} N, at most {most:e} N expected, {}", case.words(state)));
+        worst.see(force, most, || {
+            format!(
+                "force = {force:e} N, at most {most:e} N expected, {}",
+                case.words(state)
+            )
+        });
     }
     worst.breach()
 }

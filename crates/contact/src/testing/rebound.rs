@@ -32,7 +32,12 @@ pub struct Rebound {
 /// let rebound = collide::<Space, _>(&coke, &grain, &grain, 1.0).unwrap();
 /// assert!((rebound.restitution - 0.89686).abs() < 1e-4);
 /// ```
-pub fn collide<D: Dim, L: ContactLaw<D, Still>>(law: &L, a: &Kind, b: &Kind, speed: f64) -> Option<Rebound> {
+pub fn collide<D: Dim, L: ContactLaw<D, Still>>(
+    law: &L,
+    a: &Kind,
+    b: &Kind,
+    speed: f64,
+) -> Option<Rebound> {
     let case = Case::<D, L>::new(law, a, b).ok()?;
     let n = axis::<D::V>(D::UP);
     let dt = std::f64::consts::PI / (rate_at(&case, speed) * STEPS);
@@ -41,10 +46,17 @@ pub fn collide<D: Dim, L: ContactLaw<D, Still>>(law: &L, a: &Kind, b: &Kind, spe
     let mut memory = L::Memory::zero();
     let mut closest = case.range;
     for step in 0..50 * STEPS as u64 {
-        let touch = case.at(State { apart: x, velocity: v });
+        let touch = case.at(State {
+            apart: x,
+            velocity: v,
+        });
         if touch.r() >= case.range {
             let restitution = v.dot(n) / speed;
-            return Some(Rebound { restitution, duration: step as f64 * dt, closest });
+            return Some(Rebound {
+                restitution,
+                duration: step as f64 * dt,
+                closest,
+            });
         }
         closest = closest.min(touch.r());
         v += L::force(&case.pair, &touch, &mut memory, dt).total() * (dt / case.mass);
@@ -58,9 +70,16 @@ fn rate_at<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>, speed: f64) -> f6
     (0..8).fold(case.rate, |rate, _| {
         let overlap = (speed / rate).min(0.3 * case.range);
         let apart = axis::<D::V>(D::UP) * (case.range - overlap);
-        let touch = case.at(State { apart, velocity: D::V::ZERO });
+        let touch = case.at(State {
+            apart,
+            velocity: D::V::ZERO,
+        });
         let stiffness = L::linear(&case.pair, &touch, case.dt).normal_stiffness;
-        if stiffness > 0.0 { (stiffness / case.mass).sqrt() } else { rate }
+        if stiffness > 0.0 {
+            (stiffness / case.mass).sqrt()
+        } else {
+            rate
+        }
     })
 }
 
@@ -69,7 +88,13 @@ fn rate_at<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>, speed: f64) -> f6
 ///
 /// The tolerance belongs to the law: a spring that stiffens with overlap damps less at high speed.
 #[track_caller]
-pub fn rebounds_with<D: Dim, L: ContactLaw<D, Still>>(law: &L, a: &Kind, b: &Kind, e: f64, tolerance: f64) {
+pub fn rebounds_with<D: Dim, L: ContactLaw<D, Still>>(
+    law: &L,
+    a: &Kind,
+    b: &Kind,
+    e: f64,
+    tolerance: f64,
+) {
     let wrong: String = SPEEDS
         .into_iter()
         .filter_map(|speed| match collide::<D, L>(law, a, b, speed) {
@@ -79,5 +104,8 @@ pub fn rebounds_with<D: Dim, L: ContactLaw<D, Still>>(law: &L, a: &Kind, b: &Kin
         })
         .collect();
     let law = std::any::type_name::<L>();
-    assert!(wrong.is_empty(), "{law}: restitution {e} asked for, tolerance {tolerance}{wrong}");
+    assert!(
+        wrong.is_empty(),
+        "{law}: restitution {e} asked for, tolerance {tolerance}{wrong}"
+    );
 }

@@ -68,7 +68,11 @@ pub struct Breach {
 
 impl fmt::Display for Breach {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { check, excess, found } = self;
+        let Self {
+            check,
+            excess,
+            found,
+        } = self;
         write!(f, "{check:?}: {}\n    {found}", check.asks())?;
         if excess.is_finite() {
             write!(f, "\n    {excess:.3e} times the tolerance")?;
@@ -81,8 +85,14 @@ impl fmt::Display for Breach {
 pub(super) fn listing<L, D>(found: &[Breach]) -> String {
     let law = std::any::type_name::<L>();
     let dim = std::any::type_name::<D>().rsplit("::").next().unwrap_or("");
-    let each = found.iter().map(|breach| format!("\n  {breach}")).collect::<String>();
-    format!("{law} in {dim} fails {} of the conformance checks{each}", found.len())
+    let each = found
+        .iter()
+        .map(|breach| format!("\n  {breach}"))
+        .collect::<String>();
+    format!(
+        "{law} in {dim} fails {} of the conformance checks{each}",
+        found.len()
+    )
 }
 
 /// Keeps the worst state of one check.
@@ -94,7 +104,11 @@ pub(super) struct Worst {
 
 impl Worst {
     pub(super) fn of(check: Check) -> Self {
-        Self { check, excess: 0.0, found: String::new() }
+        Self {
+            check,
+            excess: 0.0,
+            found: String::new(),
+        }
     }
 
     /// One comparison: `error` against `tolerance`. Not a number counts as infinitely wrong.
@@ -117,7 +131,15 @@ impl Worst {
 
     /// The breach, if any state went beyond its tolerance.
     pub(super) fn breach(self) -> Option<Breach> {
-        let Self { check, excess, found } = self;
-        (excess > 1.0).then_some(Breach { check, excess, found })
+        let Self {
+            check,
+            excess,
+            found,
+        } = self;
+        (excess > 1.0).then_some(Breach {
+            check,
+            excess,
+            found,
+        })
     }
 }

@@ -15,17 +15,24 @@ pub(super) fn linear<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -> Opti
     for (i, overlap) in [1e-3, 1e-2, 5e-2].into_iter().enumerate() {
         let (n, t) = frame::<D::V>(i as u64);
         let (r, delta) = (case.range * (1.0 - overlap), case.range * overlap);
-        let state = |r: f64, vn: f64, vt: f64| State { apart: n * r, velocity: n * vn + t * vt };
+        let state = |r: f64, vn: f64, vt: f64| State {
+            apart: n * r,
+            velocity: n * vn + t * vt,
+        };
         let normal = |r: f64, vn: f64| case.push(state(r, vn, 0.0)).total().dot(n);
         let rest = L::linear(&case.pair, &case.at(state(r, 0.0, 0.0)), case.dt);
 
         let h = 1e-4 * delta;
         let slope = -(normal(r + h, 0.0) - normal(r - h, 0.0)) / (2.0 * h);
         let mut compare = |name: &str, got: f64, expected: f64, floor: f64| {
-            worst.see((got - expected).abs(), 1e-6 * expected.abs() + floor, || {
-                let at = case.words(state(r, 0.0, 0.0));
-                format!("{name} = {got:e}, from the force {expected:e} (SI units), {at}")
-            });
+            worst.see(
+                (got - expected).abs(),
+                1e-6 * expected.abs() + floor,
+                || {
+                    let at = case.words(state(r, 0.0, 0.0));
+                    format!("{name} = {got:e}, from the force {expected:e} (SI units), {at}")
+                },
+            );
         };
         compare("normal_stiffness", rest.normal_stiffness, slope, 0.0);
 
@@ -39,7 +46,12 @@ pub(super) fn linear<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>) -> Opti
         let there = L::linear(&case.pair, &case.at(sliding), case.dt);
         let answer = there.tangential_damping + there.tangential_stiffness * case.dt;
         let slope = -case.push(sliding).total().dot(t) / v;
-        compare("tangential_damping + tangential_stiffness·Δt", answer, slope, floor);
+        compare(
+            "tangential_damping + tangential_stiffness·Δt",
+            answer,
+            slope,
+            floor,
+        );
     }
     worst.breach()
 }

@@ -36,8 +36,21 @@ impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
         let pair = law.pair(a, b);
         let range = L::range(&pair);
         let mass = 1.0 / (1.0 / a.mass + 1.0 / b.mass);
-        let mut case = Self { law, a, b, pair, range, stiffness: 0.0, mass, rate: 0.0, dt: 1.0 };
-        let shallow = case.at(State { apart: axis::<D::V>(0) * (0.99 * range), velocity: D::V::ZERO });
+        let mut case = Self {
+            law,
+            a,
+            b,
+            pair,
+            range,
+            stiffness: 0.0,
+            mass,
+            rate: 0.0,
+            dt: 1.0,
+        };
+        let shallow = case.at(State {
+            apart: axis::<D::V>(0) * (0.99 * range),
+            velocity: D::V::ZERO,
+        });
         case.stiffness = L::linear(&pair, &shallow, case.dt).normal_stiffness;
         case.rate = (case.stiffness / mass).sqrt();
         case.dt = 0.02 / case.rate;
@@ -46,8 +59,14 @@ impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
             return Ok(case);
         }
         let stiffness = case.stiffness;
-        let found = format!("range = {range:e} m, stiffness at 1 % overlap = {stiffness:e} N/m, reduced mass = {mass:e} kg");
-        Err(Breach { check: Check::Scales, excess: f64::INFINITY, found })
+        let found = format!(
+            "range = {range:e} m, stiffness at 1 % overlap = {stiffness:e} N/m, reduced mass = {mass:e} kg"
+        );
+        Err(Breach {
+            check: Check::Scales,
+            excess: f64::INFINITY,
+            found,
+        })
     }
 
     /// True if the partner is a wall: then there is no second grain to change places with.
@@ -71,15 +90,25 @@ impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
     }
 
     /// Contacts of every overlap in [`OVERLAPS`] from `least` up, in many directions, at rest and moving.
-    pub(super) fn states(&self, least: f64) -> impl Iterator<Item = State<D::V>> + use<'_, 'a, D, L> {
+    pub(super) fn states(
+        &self,
+        least: f64,
+    ) -> impl Iterator<Item = State<D::V>> + use<'_, 'a, D, L> {
         let speed = 0.01 * self.range * self.rate;
-        let overlaps = OVERLAPS.into_iter().filter(move |&overlap| overlap >= least);
+        let overlaps = OVERLAPS
+            .into_iter()
+            .filter(move |&overlap| overlap >= least);
         overlaps.flat_map(move |overlap| {
-            directions::<D::V>().enumerate().flat_map(move |(i, direction)| {
-                let apart = direction * (self.range * (1.0 - overlap));
-                let wander = scattered::<D::V>(1000 + i as u64);
-                [0.0, 1e-3, 1.0].map(|fast| State { apart, velocity: wander * (fast * speed) })
-            })
+            directions::<D::V>()
+                .enumerate()
+                .flat_map(move |(i, direction)| {
+                    let apart = direction * (self.range * (1.0 - overlap));
+                    let wander = scattered::<D::V>(1000 + i as u64);
+                    [0.0, 1e-3, 1.0].map(|fast| State {
+                        apart,
+                        velocity: wander * (fast * speed),
+                    })
+                })
         })
     }
 
@@ -87,13 +116,21 @@ impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
     pub(super) fn words(&self, state: State<D::V>) -> String {
         let State { apart, velocity } = state;
         let overlap = 1.0 - apart.length() / self.range;
-        format!("at overlap {overlap:.3e} of the range, apart = {apart:?} m, velocity = {velocity:?} m/s")
+        format!(
+            "at overlap {overlap:.3e} of the range, apart = {apart:?} m, velocity = {velocity:?} m/s"
+        )
     }
 }
 
 pub(super) fn touch<D: Dim>(state: State<D::V>, reach: f64) -> Touch<D, Still> {
     let State { apart, velocity } = state;
-    Touch { apart, velocity, r2: apart.length_squared(), reach, spin: Default::default() }
+    Touch {
+        apart,
+        velocity,
+        r2: apart.length_squared(),
+        reach,
+        spin: Default::default(),
+    }
 }
 
 /// Sizes of the parts of a force together: the scale of its rounding.

@@ -1,0 +1,199 @@
+//! Where the run-time choices become types: dimension, damping, tally.
+
+use crate::constants::Constants;
+use crate::gate::WallRemoval;
+use crate::plan::Plan;
+use crate::simulation::{Release, Running, Simulation};
+use crate::start;
+use std::sync::Arc;
+use tsubu_engine::{Body, Lanes, Layout, NoTally, OneKind, Setup, Tally, TouchesAt, WithTally, World};
+use tsubu_measure::{Balance, Energy, Heap, HeapOptions, Slices, Structure};
+use tsubu_model::{ContactLaw, Dim, Domain, Gate, Observer, Plane, Space, Still, Surface, Vector};
+use tsubu_scene as scene;
+use tsubu_scene::{Axis, Checked, Removal, SceneError, Shape};
+use tsubu_sdf::HalfSpace;
+
+/// What the caller chooses about the machine, not about the physics. No choice changes a bit of the result.
+#[derive(Clone, Debug, Default)]
+pub struct Choices {
+    /// Threads; `None` takes as many as pay for the number of grains.
+    pub threads: Option<usize>,
+    /// Vector path; `None` takes the widest.
+    pub lanes: Option<Lanes>,
+    /// Runs a scene whose step is over its limit.
+    pub allow_unstable: bool,
+}
+
+/// A scene ready to run.
+pub struct Built {
+    /// The simulation at time 0.
+    pub simulation: Box<dyn Simulation>,
+    /// What it models.
+    pub plan: Plan,
+}
+
+/// Grains per thread below which another thread costs more than it gives
+/// (`cargo run -p tsubu-engine --example packing` with 1 and 2 threads on heads of packing.csv).
+const GRAINS_PER_THREAD: usize = 2500;
+
+/// Builds the simulation of a checked scene.
+pub fn build(checked: &Checked, choices: &Choices) -> Result<Built, SceneError> {
+    match checked.scene.space {
+        scene::Space::Space => in_dimension::<Space>(checked, choices),
+        scene::Space::Plane => in_dimension::<Plane>(checked, choices),
+    }
+}
+
+fn in_dimension<D: Layout + Slices>(checked: &Checked, choices: &Choices) -> Result<Built, SceneError> {
+    let constants = Constants::of(checked)?;
+    let domain = domain_of::<D>(checked, &constants)?;
+    let grains = start::grains::<D>(checked, &constants, &domain)?;
+    let threads = choices.threads.unwrap_or_else(|| as_many_as_pay(grains.len())).max(1);
+    let lanes = choices.lanes.unwrap_or_else(Lanes::best);
+    let plan = Plan::of(checked, &constants, grains.len(), threads, lanes.name());
+    if !choices.allow_unstable {
+        plan.refuse_unstable(checked)?;
+    }
+    let pool = if threads > 1 {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        Some(Arc::new(pool.map_err(|e| {
+            checked.problem("", format!("{threads} threads could not be started: {e}"), "ask for fewer with --threads")
+        })?))
+    } else {
+        None
+    };
+    let parts = Parts { checked, constants: &constants, domain, grains, lanes, pool };
+    let energies = checked.scene.output.energies;
+    let simulation = match (constants.isotropic, energies) {
+        (true, false) => parts.run::<_, NoTally>(constants.law),
+        (true, true) => parts.run::<_, WithTally>(constants.law),
+        (false, false) => parts.run::<_, NoTally>(constants.law.per_direction()),
+        (false, true) => parts.run::<_, WithTally>(constants.law.per_direction()),
+    };
+    Ok(Built { simulation, plan })
+}
+
+/// Everything but the law and the tally.
+struct Parts<'a, D: Layout> {
+    checked: &'a Checked,
+    constants: &'a Constants,
+    domain: Domain<D>,
+    grains: Vec<(D::V, D::V, usize)>,
+    lanes: Lanes,
+    pool: Option<Arc<rayon::ThreadPool>>,
+}
+
+impl<D: Layout + Slices> Parts<'_, D> {
+    fn run<L: ContactLaw<D, Still> + 'static, T: Tally>(self, law: L) -> Box<dyn Simulation> {
+        let scene = &self.checked.scene;
+        let surfaces: Vec<Arc<dyn Surface<D>>> = scene.walls.iter().map(surface_of::<D>).collect();
+        let bodies = scene
+            .walls
+            .iter()
+            .zip(&surfaces)
+            .zip(&self.constants.walls)
+            .map(|((wall, surface), law)| Body {
+                name: wall.name.clone(),
+                surface: surface.clone(),
+                law: *law,
+                touches_at: match wall.touches_at {
+                    scene::TouchesAt::Surface => TouchesAt::Surface,
+                    scene::TouchesAt::Centre => TouchesAt::Centre,
+                },
+                removed_at: None,
+            })
+            .collect();
+        let world = World::new(Setup {
+            kinds: OneKind([self.constants.kind]),
+            law,
+            bodies,
+            domain: self.domain,
+            gravity: D::V::from_axes(|a| if a == D::UP { -scene.gravity } else { 0.0 }),
+            scheme: self.constants.scheme,
+            dt: self.constants.dt,
+            skin: scene.skin.map(|share| share * self.constants.kind.diameter()),
+            lanes: self.lanes,
+            pool: self.pool,
+            grains: self.grains,
+        });
+        let removal = WallRemoval::of(scene);
+        let gates: Vec<Box<dyn Gate<D, Still>>> = if removal.is_needed() { vec![Box::new(removal)] } else { Vec::new() };
+        Box::new(Running::<D, L, T> {
+            observers: observers_of(scene, self.constants, &self.domain),
+            surfaces,
+            gates,
+            gate_every: gate_every(scene, self.constants.dt),
+            end: scene.time.end,
+            release: release_of(scene),
+            trouble: None,
+            world,
+        })
+    }
+}
+
+fn surface_of<D: Dim>(wall: &scene::Wall) -> Arc<dyn Surface<D>> {
+    let Shape::HalfSpace { point, outward } = &wall.shape;
+    Arc::new(HalfSpace::<D>::new(D::from_space(*point), D::from_space(*outward)))
+}
+
+fn domain_of<D: Dim>(checked: &Checked, constants: &Constants) -> Result<Domain<D>, SceneError> {
+    let axes = checked.scene.domain;
+    let length = |axis: Axis| match axis {
+        Axis::Periodic(length) => length,
+        Axis::Open => f64::INFINITY,
+    };
+    // A grain must not see itself or one partner twice.
+    for (name, axis) in [("domain.x", axes.x), ("domain.y", axes.y), ("domain.z", axes.z)] {
+        if length(axis) < 3.0 * constants.kind.diameter() {
+            let what = format!("the period is {:.2} grain diameters; it must be at least 3, or a grain meets itself", length(axis) / constants.kind.diameter());
+            return Err(checked.problem(name, what, "lengthen the period or lower grains.coarse"));
+        }
+    }
+    Ok(Domain { period: D::from_space(glam::DVec3::new(length(axes.x), length(axes.y), length(axes.z))) })
+}
+
+fn release_of(scene: &scene::Scene) -> Option<Release> {
+    let body = scene.walls.iter().position(|w| w.removed == Removal::WhenStill)?;
+    let still = scene.still?;
+    Some(Release { body, at_most: still.at_most, asked: still.kinetic_energy, at_step: None })
+}
+
+/// A tenth of the time for which the grains must be still, or a thousand steps.
+fn gate_every(scene: &scene::Scene, dt: f64) -> u64 {
+    let still = scene.still.map_or(u64::MAX, |s| (0.1 * s.for_at_least / dt) as u64);
+    still.clamp(1, 1000)
+}
+
+fn observers_of<D: Slices>(scene: &scene::Scene, constants: &Constants, domain: &Domain<D>) -> Vec<Box<dyn Observer<D, Still>>> {
+    let mut observers: Vec<Box<dyn Observer<D, Still>>> = Vec::new();
+    let depth = (D::V::AXES == 3 && domain.is_periodic(1)).then(|| domain.period.axis(1));
+    let removed = scene.walls.iter().find(|w| w.removed != Removal::Never);
+    if let Some(removed) = removed {
+        // A wall that stays and looks along x is the back, one that looks against it the far end.
+        let upright = |sign: f64| {
+            scene.walls.iter().find_map(|w| {
+                let Shape::HalfSpace { point, outward } = &w.shape;
+                (w.removed == Removal::Never && sign * outward.x > 0.999).then_some(point.x)
+            })
+        };
+        observers.push(Box::new(Heap::new(HeapOptions {
+            diameter: constants.kind.diameter(),
+            depth,
+            back: upright(1.0).unwrap_or(0.0),
+            far: upright(-1.0),
+            release: Some(removed.name.clone()),
+            snapshots: vec![0.1, 0.2, 0.4, 0.6, 1.0, 1.4, 2.0, 3.0, 5.0],
+        })));
+    }
+    if scene.output.energies {
+        observers.push(Box::new(Energy::new()));
+    }
+    observers.push(Box::new(Structure::new(depth)));
+    observers.push(Box::new(Balance::new()));
+    observers
+}
+
+fn as_many_as_pay(grains: usize) -> usize {
+    let here = std::thread::available_parallelism().map_or(1, |n| n.get());
+    (grains / GRAINS_PER_THREAD).clamp(1, here)
+}

@@ -1,0 +1,157 @@
+//! From the scene's grains to the constants that run: softened, then coarsened, then the step.
+
+use std::f64::consts::PI;
+use tsubu_coarsen::{CoarseRule, Gap, Level, RadlRestitution, Renormalised, SakaiKoshizuka, check_gaps, coarsen};
+use tsubu_contact::{Repulsion, RepulsiveWall, restitution};
+use tsubu_integrate::Scheme;
+use tsubu_model::Kind;
+use tsubu_scene as scene;
+use tsubu_scene::{Checked, SceneError};
+
+/// The constants of a run, all at the coarse level of the scene.
+#[derive(Clone, Debug)]
+pub struct Constants {
+    /// The grain.
+    pub kind: Kind,
+    /// The law between grains.
+    pub law: Repulsion,
+    /// True if γn = γt: the law needs neither root nor projection.
+    pub isotropic: bool,
+    /// The law at each wall.
+    pub walls: Vec<RepulsiveWall>,
+    /// λ = 2^n.
+    pub lambda: f64,
+    /// Name of the coarse-graining rule.
+    pub rule: &'static str,
+    /// Sources of the law and the rule, keys of the bibliography.
+    pub sources: Vec<&'static str>,
+    /// The scheme.
+    pub scheme: Scheme,
+    /// Δt in s.
+    pub dt: f64,
+    /// Period of a pair of touching grains, 2π√(m*/k), in s.
+    pub period: f64,
+}
+
+impl Constants {
+    /// Works out the constants; refuses a coarse level that a gap or the rule does not bear.
+    pub fn of(checked: &Checked) -> Result<Self, SceneError> {
+        let scene = &checked.scene;
+        let grains = &scene.grains;
+        let fine = Kind::with_mass(grains.diameter, grains.mass);
+        let law = softened(grains);
+        let level = Level::new(grains.coarse);
+        let rule = rule_of(checked, &law, &fine)?;
+        let refuse = |trouble: tsubu_coarsen::TooCoarse| {
+            checked.problem("grains.coarse", trouble.to_string(), "lower grains.coarse, or choose another grains.coarse_rule")
+        };
+        let kind = coarsen(&*rule, &fine, level).map_err(refuse)?;
+        let coarse = coarsen(&*rule, &law, level).map_err(refuse)?;
+        // A wall shares the grains' potential; its own constants go through the plain rule (crate coarsen says why).
+        let walls = scene
+            .walls
+            .iter()
+            .map(|w| RepulsiveWall { grains: coarse, restitution: w.restitution, friction: w.friction.unwrap_or(0.0) })
+            .collect();
+        if grains.coarse > 0 {
+            check_gaps(&gaps(scene), grains.diameter, level)
+                .map_err(|narrow| checked.problem("grains.coarse", narrow.to_string(), "lower grains.coarse or widen the gap"))?;
+        }
+        let period = 2.0 * PI * (0.5 * kind.mass / coarse.stiffness()).sqrt();
+        let dt = match scene.time.step {
+            scene::Step::PerPeriod(steps) => period / steps,
+            scene::Step::Seconds(dt) => dt * rule.step_factor(level.lambda()),
+            scene::Step::Exactly(dt) => dt,
+        };
+        let mut sources = vec!["Sumitomo2024", "Weeks1971"];
+        if grains.coarse > 0 {
+            sources.extend(rule.source().split(',').map(str::trim));
+        }
+        sources.dedup();
+        Ok(Self {
+            kind,
+            law: coarse,
+            isotropic: coarse.normal_damping == coarse.tangential_damping,
+            walls,
+            lambda: level.lambda(),
+            rule: rule.name(),
+            sources,
+            scheme: scheme_of(scene.time.integrator),
+            dt,
+            period,
+        })
+    }
+
+    /// K = kΔt²/m of one grain's mass.
+    pub fn k(&self) -> f64 {
+        self.law.stiffness() * self.dt * self.dt / self.kind.mass
+    }
+
+    /// C = γΔt/m with the larger of the two dampings.
+    pub fn c(&self) -> f64 {
+        self.law.normal_damping.max(self.law.tangential_damping) * self.dt / self.kind.mass
+    }
+}
+
+fn softened(grains: &scene::Grains) -> Repulsion {
+    let scene::Law::Repulsion { stiffness, damping } = &grains.law;
+    let (normal, tangential) = match *damping {
+        scene::Damping::Equal(g) => (g, g),
+        scene::Damping::Parts { normal, tangential } => (normal, tangential),
+    };
+    let law = match *stiffness {
+        scene::Stiffness::YoungModulus(young) => {
+            Repulsion::from_young_modulus(young, Repulsion::sigma_for_diameter(grains.diameter), normal, tangential, grains.diameter)
+        }
+        scene::Stiffness::Energy { epsilon, sigma } => Repulsion::new(epsilon, sigma, normal, tangential, grains.diameter),
+    };
+    let root = 1.0 / grains.soften.sqrt();
+    let (n, t) = match grains.softened_damping {
+        scene::SoftenedDamping::Kept => (1.0, 1.0),
+        scene::SoftenedDamping::Scaled => (root, root),
+        scene::SoftenedDamping::NormalScaled => (root, 1.0),
+    };
+    law.softened(grains.soften, n, t)
+}
+
+fn rule_of(checked: &Checked, law: &Repulsion, kind: &Kind) -> Result<Box<dyn CoarseRule>, SceneError> {
+    Ok(match checked.scene.grains.coarse_rule {
+        scene::CoarseRule::Renormalised => Box::new(Renormalised),
+        scene::CoarseRule::SakaiKoshizuka => Box::new(SakaiKoshizuka),
+        scene::CoarseRule::RadlRestitution => {
+            let e = restitution::at_zero_overlap(law.damping_ratio(0.5 * kind.mass));
+            let rule = RadlRestitution::new(e)
+                .map_err(|bad| checked.problem("grains.coarse_rule", bad.to_string(), "choose Renormalised, or lower the damping"))?;
+            Box::new(rule)
+        }
+    })
+}
+
+/// Gaps that a grain has to fit: periodic lengths and the room between facing walls.
+fn gaps(scene: &scene::Scene) -> Vec<Gap> {
+    let mut gaps = Vec::new();
+    for (name, axis) in [("domain.x", scene.domain.x), ("domain.y", scene.domain.y), ("domain.z", scene.domain.z)] {
+        if let scene::Axis::Periodic(length) = axis {
+            gaps.push(Gap::new(name, length));
+        }
+    }
+    for (i, a) in scene.walls.iter().enumerate() {
+        for b in &scene.walls[i + 1..] {
+            let (scene::Shape::HalfSpace { point: p, outward: n }, scene::Shape::HalfSpace { point: q, outward: m }) = (&a.shape, &b.shape);
+            if n.dot(*m) < -1.0 + 1e-9 && (*q - *p).dot(*n) > 0.0 {
+                gaps.push(Gap::new(format!("between the walls `{}` and `{}`", a.name, b.name), (*q - *p).dot(*n)));
+            }
+        }
+    }
+    gaps
+}
+
+fn scheme_of(integrator: scene::Integrator) -> Scheme {
+    match integrator {
+        scene::Integrator::ExplicitEuler => Scheme::ExplicitEuler,
+        scene::Integrator::SymplecticEuler => Scheme::SymplecticEuler,
+        scene::Integrator::VerletOld => Scheme::VerletOld,
+        scene::Integrator::VerletAveraged { sweeps } => Scheme::VerletAveraged { sweeps },
+        scene::Integrator::DashpotImplicit { sweeps } => Scheme::DashpotImplicit { sweeps },
+    }
+}

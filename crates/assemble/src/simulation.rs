@@ -1,0 +1,274 @@
+//! A running scene behind one object, whatever its types: what the command, the validations and the tests hold.
+
+use crate::gate::agitation;
+use glam::DVec3;
+use std::sync::Arc;
+use tsubu_contact::RepulsiveWall;
+use tsubu_engine::{Health, Layout, OneKind, Tally, World};
+use tsubu_model::{Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Reading, Still, Surface, View};
+use tsubu_scene::End;
+
+/// Overlap over the law's range above which a run stops: the laws are made for a hundredth.
+const DEEP: f64 = 0.3;
+
+/// Why a run goes no further.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stop {
+    /// It has reached its end.
+    Over,
+    /// The numbers are no longer physics.
+    Trouble(Health),
+    /// The grains were not still by the time the scene allows.
+    NeverStill {
+        /// When the run gave up, in s.
+        time: f64,
+        /// Kinetic energy per grain over m g d at that time.
+        agitation: f64,
+        /// What the scene asks for.
+        asked: f64,
+    },
+}
+
+/// One grain of a snapshot, in single precision, for frames and pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grain {
+    /// Identity.
+    pub identity: u32,
+    /// Centre in m.
+    pub position: [f32; 3],
+    /// Velocity in m/s.
+    pub velocity: [f32; 3],
+    /// Radius in m.
+    pub radius: f32,
+}
+
+/// All grains at one moment, in order of identity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// Simulated time in s.
+    pub time: f64,
+    /// The grains.
+    pub grains: Vec<Grain>,
+}
+
+/// A running scene.
+pub trait Simulation: Send {
+    /// Takes up to `steps` steps; stops at the end of the run or at trouble. Returns how many were taken.
+    fn advance(&mut self, steps: u64) -> u64;
+    /// Why it goes no further, if it does not.
+    fn stop(&self) -> Option<Stop>;
+    /// True if it goes no further.
+    fn is_over(&self) -> bool {
+        self.stop().is_some()
+    }
+    /// Steps taken.
+    fn steps(&self) -> u64;
+    /// The step at which the run ends, once that is known.
+    fn last_step(&self) -> Option<u64>;
+    /// Simulated time in s.
+    fn time(&self) -> f64;
+    /// When the wall that waits for stillness was removed, in s.
+    fn released_at(&self) -> Option<f64>;
+    /// Number of grains.
+    fn grains(&self) -> usize;
+    /// Kinetic energy per grain over m g d.
+    fn agitation(&self) -> f64;
+    /// Observers look: one row of readings, always the same names.
+    fn look(&mut self) -> Vec<Reading>;
+    /// What the observers say at the end.
+    fn report(&self) -> Vec<Reading>;
+    /// Curves worth a figure.
+    fn curves(&self) -> Vec<Curve>;
+    /// Energies now; the losses are summed only if the scene asks for energies.
+    fn energies(&self) -> Energies;
+    /// All grains now.
+    fn snapshot(&self) -> Snapshot;
+    /// Edges of the bodies that are still there, cut to the box `low`–`high`.
+    fn outlines(&self, low: DVec3, high: DVec3) -> Vec<[DVec3; 2]>;
+    /// Bytes held per grain.
+    fn bytes_per_grain(&self) -> f64;
+    /// Force of the grains on each body in the last step, by name, in N.
+    fn body_forces(&self) -> Vec<(String, DVec3)>;
+    /// Positions and velocities in full, in order of identity, in m and m/s.
+    fn state(&self) -> Vec<(DVec3, DVec3)>;
+    /// How far the last solve was from its end, in m/s; zero for explicit schemes.
+    fn solve_residual(&self) -> f64;
+}
+
+/// The one implementation.
+pub(crate) struct Running<D: Layout, L: ContactLaw<D, Still>, T: Tally> {
+    pub world: World<D, Still, OneKind, L, RepulsiveWall, T>,
+    pub surfaces: Vec<Arc<dyn Surface<D>>>,
+    pub gates: Vec<Box<dyn Gate<D, Still>>>,
+    pub observers: Vec<Box<dyn Observer<D, Still>>>,
+    /// Steps between two looks of the gates.
+    pub gate_every: u64,
+    pub end: End,
+    /// Number of the body whose removal starts the clock, and the time by which it must have gone.
+    pub release: Option<Release>,
+    pub trouble: Option<Stop>,
+}
+
+/// The wait for stillness.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Release {
+    pub body: usize,
+    pub at_most: f64,
+    pub asked: f64,
+    pub at_step: Option<u64>,
+}
+
+impl<D, L, T> Running<D, L, T>
+where
+    D: Layout,
+    L: ContactLaw<D, Still>,
+    T: Tally,
+{
+    fn end_after(&self) -> u64 {
+        match self.end {
+            End::Until(seconds) => (seconds / self.world.dt()).round().max(1.0) as u64,
+            End::Steps(steps) => steps,
+        }
+    }
+
+    fn decide(&mut self) {
+        let mut changes = Vec::new();
+        for gate in &mut self.gates {
+            gate.decide(&self.world, &mut changes);
+        }
+        for change in changes {
+            let Change::RemoveBody(number) = change;
+            self.world.remove_body(number);
+            if let Some(release) = self.release.as_mut().filter(|r| r.body == number) {
+                release.at_step = Some(self.world.steps());
+            }
+        }
+        if let Some(release) = self.release.filter(|r| r.at_step.is_none())
+            && self.world.now() > release.at_most
+        {
+            self.trouble = Some(Stop::NeverStill { time: self.world.now(), agitation: self.agitation(), asked: release.asked });
+        }
+    }
+}
+
+impl<D, L, T> Simulation for Running<D, L, T>
+where
+    D: Layout,
+    L: ContactLaw<D, Still>,
+    T: Tally,
+{
+    fn advance(&mut self, steps: u64) -> u64 {
+        let start = self.world.steps();
+        while self.stop().is_none() {
+            let now = self.world.steps();
+            let mut batch = (start + steps.min(u64::MAX - start)).saturating_sub(now);
+            if batch == 0 {
+                break;
+            }
+            if let Some(last) = self.last_step() {
+                batch = batch.min(last - now);
+            }
+            if !self.gates.is_empty() {
+                batch = batch.min(self.gate_every - now % self.gate_every);
+            }
+            // Without gates and with a far end, still look at the health now and then.
+            self.world.advance(batch.min(100_000));
+            let health = self.world.health();
+            if !health.is_fine() {
+                self.trouble = Some(Stop::Trouble(health));
+            } else if !self.gates.is_empty() && self.world.steps() % self.gate_every == 0 {
+                self.decide();
+            }
+        }
+        self.world.steps() - start
+    }
+
+    fn stop(&self) -> Option<Stop> {
+        self.trouble.clone().or_else(|| self.last_step().filter(|&last| self.world.steps() >= last).map(|_| Stop::Over))
+    }
+
+    fn steps(&self) -> u64 {
+        self.world.steps()
+    }
+
+    fn last_step(&self) -> Option<u64> {
+        match self.release {
+            Some(release) => release.at_step.map(|from| from + self.end_after()),
+            None => Some(self.end_after()),
+        }
+    }
+
+    fn time(&self) -> f64 {
+        self.world.now()
+    }
+
+    fn released_at(&self) -> Option<f64> {
+        self.release.and_then(|r| r.at_step).map(|step| step as f64 * self.world.dt())
+    }
+
+    fn grains(&self) -> usize {
+        self.world.len()
+    }
+
+    fn agitation(&self) -> f64 {
+        agitation(&self.world as &dyn View<D, Still>)
+    }
+
+    fn look(&mut self) -> Vec<Reading> {
+        let world = &self.world;
+        let deep = world.overlap_health(DEEP);
+        if !deep.is_fine() && self.trouble.is_none() {
+            self.trouble = Some(Stop::Trouble(deep));
+        }
+        self.observers.iter_mut().flat_map(|o| o.see(world)).collect()
+    }
+
+    fn report(&self) -> Vec<Reading> {
+        self.observers.iter().flat_map(|o| o.report()).collect()
+    }
+
+    fn curves(&self) -> Vec<Curve> {
+        self.observers.iter().flat_map(|o| o.curves()).collect()
+    }
+
+    fn energies(&self) -> Energies {
+        View::energies(&self.world)
+    }
+
+    fn snapshot(&self) -> Snapshot {
+        let single = |v: D::V| <D as Dim>::to_space(v).as_vec3().to_array();
+        let mut grains: Vec<Grain> = (0..self.world.len())
+            .map(|i| Grain {
+                identity: self.world.identity(i),
+                position: single(self.world.position(i)),
+                velocity: single(self.world.velocity(i)),
+                radius: self.world.kind(i).radius as f32,
+            })
+            .collect();
+        grains.sort_unstable_by_key(|g| g.identity);
+        Snapshot { time: self.world.now(), grains }
+    }
+
+    fn outlines(&self, low: DVec3, high: DVec3) -> Vec<[DVec3; 2]> {
+        let there = self.world.bodies().into_iter().zip(&self.surfaces).filter(|(b, _)| b.removed_at.is_none());
+        there.flat_map(|(_, surface)| surface.outline(low, high)).collect()
+    }
+
+    fn bytes_per_grain(&self) -> f64 {
+        self.world.bytes_per_grain()
+    }
+
+    fn body_forces(&self) -> Vec<(String, DVec3)> {
+        self.world.bodies().into_iter().map(|b| (b.name, D::to_space(b.force))).collect()
+    }
+
+    fn state(&self) -> Vec<(DVec3, DVec3)> {
+        let mut order: Vec<usize> = (0..self.world.len()).collect();
+        order.sort_unstable_by_key(|&i| self.world.identity(i));
+        order.into_iter().map(|i| (D::to_space(self.world.position(i)), D::to_space(self.world.velocity(i)))).collect()
+    }
+
+    fn solve_residual(&self) -> f64 {
+        self.world.solve_residual()
+    }
+}

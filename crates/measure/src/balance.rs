@@ -1,0 +1,57 @@
+//! Momentum of the grains and the force they exert on all bodies.
+
+use tsubu_model::{Dim, Observer, Reading, SpinState, Vector, View};
+
+/// Forces and momentum as a whole.
+///
+/// Rows: `momentum_x`, `momentum_z` (kg m/s) of all grains; `force_on_bodies_x`, `force_on_bodies_z` (N), the sum over the
+/// bodies that stand; `support` = (force on bodies along gravity)/(weight of the grains), which is 1 for grains
+/// at rest and on average over any time between two states of rest; NaN without gravity or grains.
+/// Grains of infinite mass take no part; where they carry grains, `support` is below 1.
+///
+/// Two grains of weight 3 N on a floor that feels 6 N: `support` = 1.
+#[derive(Clone, Debug, Default)]
+pub struct Balance {
+    support: Option<f64>,
+}
+
+impl Balance {
+    /// An observer that has not looked yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+}
+
+impl<D: Dim, S: SpinState> Observer<D, S> for Balance {
+    fn see(&mut self, view: &dyn View<D, S>) -> Vec<Reading> {
+        let mut momentum = D::V::ZERO;
+        let mut weight = 0.0;
+        let gravity = view.gravity();
+        for i in (0..view.len()).filter(|&i| view.kind(i).mass.is_finite()) {
+            momentum += view.velocity(i) * view.kind(i).mass;
+            weight += view.kind(i).weight * gravity.length();
+        }
+        let force = view
+            .bodies()
+            .iter()
+            .filter(|body| body.removed_at.is_none())
+            .fold(D::V::ZERO, |sum, body| sum + body.force);
+        let support = force.dot(gravity) / (gravity.length() * weight);
+        self.support = Some(support);
+        let (momentum, force) = (D::to_space(momentum), D::to_space(force));
+        vec![
+            Reading::new("momentum_x", momentum.x, "kg m/s"),
+            Reading::new("momentum_z", momentum.z, "kg m/s"),
+            Reading::new("force_on_bodies_x", force.x, "N"),
+            Reading::new("force_on_bodies_z", force.z, "N"),
+            Reading::new("support", support, "1"),
+        ]
+    }
+
+    fn report(&self) -> Vec<Reading> {
+        self.support
+            .iter()
+            .map(|support| Reading::new("support", *support, "1"))
+            .collect()
+    }
+}

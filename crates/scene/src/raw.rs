@@ -1,0 +1,313 @@
+//! The raw scene: the text field by field, as serde reads it.
+//!
+//! The names of the types are what `ron` puts into its messages.
+
+use serde::Deserialize;
+
+use crate::quantity::{
+    Acceleration, Damping, Density, Energy, Length, Mass, Number, Pressure, Quantity, Time, Triple,
+    Velocity, Whole,
+};
+
+/// Fields of the whole scene that no inner block has: they give an unclosed bracket away.
+pub(crate) const TOP: &[&str] = &[
+    "title",
+    "space",
+    "gravity",
+    "domain",
+    "walls",
+    "initial",
+    "still",
+    "time",
+    "neighbours",
+    "output",
+];
+
+/// Groups of fields of which exactly one is given: the path of the block, and the fields.
+pub(crate) const ONE_OF: &[(&str, &[&str])] = &[
+    ("grains", &["density", "mass"]),
+    ("initial", &["file", "fill", "grains"]),
+    ("time", &["until", "steps"]),
+];
+
+/// The choices of each field that has some, for the message when something else stands there.
+pub(crate) const CHOICES: &[(&str, &[&str])] = &[
+    ("space", &["Space", "Plane"]),
+    ("law", &["Repulsion"]),
+    ("stiffness", &["YoungModulus", "Energy"]),
+    ("damping", &["Equal", "Parts"]),
+    ("softened_damping", &["Kept", "Scaled", "NormalScaled"]),
+    (
+        "coarse_rule",
+        &["Renormalised", "SakaiKoshizuka", "RadlRestitution"],
+    ),
+    ("x", &["Open", "Periodic"]),
+    ("y", &["Open", "Periodic"]),
+    ("z", &["Open", "Periodic"]),
+    ("shape", &["HalfSpace"]),
+    ("touches_at", &["Surface", "Centre"]),
+    ("removed", &["Never", "WhenStill", "At"]),
+    ("step", &["PerPeriod", "Seconds", "Exactly"]),
+    (
+        "integrator",
+        &[
+            "ExplicitEuler",
+            "SymplecticEuler",
+            "VerletOld",
+            "VerletAveraged",
+            "DashpotImplicit",
+        ],
+    ),
+];
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "Scene")]
+pub(crate) struct RawScene {
+    pub title: String,
+    pub space: Option<RawSpace>,
+    pub gravity: Option<Quantity<Acceleration>>,
+    pub grains: RawGrains,
+    pub domain: Option<RawDomain>,
+    pub walls: Option<Vec<RawWall>>,
+    pub initial: RawInitial,
+    pub still: Option<RawStill>,
+    pub time: RawTime,
+    pub neighbours: Option<RawNeighbours>,
+    pub output: Option<RawOutput>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "Space")]
+pub(crate) enum RawSpace {
+    Space,
+    Plane,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "grains")]
+pub(crate) struct RawGrains {
+    pub diameter: Quantity<Length>,
+    pub density: Option<Quantity<Density>>,
+    pub mass: Option<Quantity<Mass>>,
+    pub law: RawLaw,
+    pub soften: Option<Number>,
+    pub softened_damping: Option<RawSoftenedDamping>,
+    pub coarse: Option<Whole>,
+    pub coarse_rule: Option<RawCoarseRule>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "law")]
+pub(crate) enum RawLaw {
+    Repulsion {
+        stiffness: RawStiffness,
+        damping: RawDamping,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "stiffness")]
+pub(crate) enum RawStiffness {
+    YoungModulus(Quantity<Pressure>),
+    Energy {
+        epsilon: Quantity<Energy>,
+        sigma: Quantity<Length>,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "damping")]
+pub(crate) enum RawDamping {
+    Equal(Quantity<Damping>),
+    Parts {
+        normal: Quantity<Damping>,
+        tangential: Quantity<Damping>,
+    },
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "softened_damping")]
+pub(crate) enum RawSoftenedDamping {
+    Kept,
+    Scaled,
+    NormalScaled,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "coarse_rule")]
+pub(crate) enum RawCoarseRule {
+    Renormalised,
+    SakaiKoshizuka,
+    RadlRestitution,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "domain")]
+pub(crate) struct RawDomain {
+    pub x: Option<RawAxis>,
+    pub y: Option<RawAxis>,
+    pub z: Option<RawAxis>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "axis")]
+pub(crate) enum RawAxis {
+    Open,
+    Periodic(Quantity<Length>),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "wall")]
+pub(crate) struct RawWall {
+    pub name: String,
+    pub shape: RawShape,
+    pub restitution: Option<Number>,
+    pub friction: Option<Number>,
+    pub touches_at: Option<RawTouchesAt>,
+    pub removed: Option<RawRemoval>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "shape")]
+pub(crate) enum RawShape {
+    HalfSpace {
+        point: Triple<Quantity<Length>>,
+        outward: Triple<Number>,
+    },
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "touches_at")]
+pub(crate) enum RawTouchesAt {
+    Surface,
+    Centre,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "removed")]
+pub(crate) enum RawRemoval {
+    Never,
+    WhenStill,
+    At(Quantity<Time>),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "initial")]
+pub(crate) struct RawInitial {
+    pub file: Option<String>,
+    pub fill: Option<RawFill>,
+    pub grains: Option<Vec<RawGrain>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "fill")]
+pub(crate) struct RawFill {
+    pub region: RawRegion,
+    pub solid_fraction: Number,
+    pub seed: Whole,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "region")]
+pub(crate) struct RawRegion {
+    pub min: Triple<Quantity<Length>>,
+    pub max: Triple<Quantity<Length>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "grain")]
+pub(crate) struct RawGrain {
+    pub at: Triple<Quantity<Length>>,
+    pub velocity: Option<Triple<Quantity<Velocity>>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "still")]
+pub(crate) struct RawStill {
+    pub kinetic_energy: Number,
+    pub for_at_least: Quantity<Time>,
+    pub at_most: Quantity<Time>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "time")]
+pub(crate) struct RawTime {
+    pub step: RawStep,
+    pub integrator: Option<RawIntegrator>,
+    pub until: Option<Quantity<Time>>,
+    pub steps: Option<Whole>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "step")]
+pub(crate) enum RawStep {
+    PerPeriod(Number),
+    Seconds(Quantity<Time>),
+    Exactly(Quantity<Time>),
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename = "integrator")]
+pub(crate) enum RawIntegrator {
+    ExplicitEuler,
+    SymplecticEuler,
+    VerletOld,
+    VerletAveraged { sweeps: Option<Whole> },
+    DashpotImplicit { sweeps: Option<Whole> },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "neighbours")]
+pub(crate) struct RawNeighbours {
+    pub skin: Option<Number>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "output")]
+pub(crate) struct RawOutput {
+    pub every: Option<Quantity<Time>>,
+    pub frames: Option<bool>,
+    pub frames_every: Option<Quantity<Time>>,
+    pub energies: Option<bool>,
+    pub animation: Option<bool>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The names that serde accepts.
+    fn accepted<T: serde::de::DeserializeOwned>() -> &'static [&'static str] {
+        match ron::from_str::<T>("Nonsense").map_err(|error| error.code) {
+            Err(ron::Error::NoSuchEnumVariant { expected, .. }) => expected,
+            _ => &[],
+        }
+    }
+
+    #[test]
+    fn the_choices_are_those_that_are_read() {
+        let read = [
+            accepted::<RawSpace>(),
+            accepted::<RawLaw>(),
+            accepted::<RawStiffness>(),
+            accepted::<RawDamping>(),
+            accepted::<RawSoftenedDamping>(),
+            accepted::<RawCoarseRule>(),
+            accepted::<RawAxis>(),
+            accepted::<RawAxis>(),
+            accepted::<RawAxis>(),
+            accepted::<RawShape>(),
+            accepted::<RawTouchesAt>(),
+            accepted::<RawRemoval>(),
+            accepted::<RawStep>(),
+            accepted::<RawIntegrator>(),
+        ];
+        assert_eq!(
+            CHOICES
+                .iter()
+                .map(|(_, choices)| *choices)
+                .collect::<Vec<_>>(),
+            read
+        );
+    }
+}

@@ -1,0 +1,279 @@
+//! A checked scene back as text, every default filled in, every quantity in SI.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use crate::scene::{
+    Axis, Damping, End, Grains, Initial, Integrator, Law, Output, Removal, Scene, Shape, Space,
+    StartingGrain, Step, Stiffness, Wall,
+};
+use crate::units::{Dimension, write};
+
+impl Scene {
+    /// The scene as a complete scene file: it reads back to the same scene, from whatever folder.
+    pub fn to_resolved_ron(&self) -> String {
+        let mut out = String::new();
+        // Writing to a string cannot fail.
+        let _ = self.write_to(&mut out);
+        out
+    }
+
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        writeln!(
+            out,
+            "// The scene as it was run: overrides and defaults filled in, in SI units.\n("
+        )?;
+        writeln!(out, "    title: {},", text(&self.title))?;
+        writeln!(out, "    space: {:?},", self.space)?;
+        writeln!(
+            out,
+            "    gravity: {},",
+            quantity(Dimension::Acceleration, self.gravity)
+        )?;
+        self.grains.write_to(out)?;
+        let domain = &self.domain;
+        match self.space {
+            Space::Space => writeln!(
+                out,
+                "    domain: (x: {}, y: {}, z: {}),",
+                axis(domain.x),
+                axis(domain.y),
+                axis(domain.z)
+            )?,
+            Space::Plane => writeln!(
+                out,
+                "    domain: (x: {}, z: {}),",
+                axis(domain.x),
+                axis(domain.z)
+            )?,
+        }
+        writeln!(out, "    walls: [")?;
+        for wall in &self.walls {
+            wall.write_to(out)?;
+        }
+        writeln!(out, "    ],")?;
+        self.initial.write_to(out)?;
+        if let Some(still) = &self.still {
+            let for_at_least = quantity(Dimension::Time, still.for_at_least);
+            let at_most = quantity(Dimension::Time, still.at_most);
+            writeln!(
+                out,
+                "    still: (kinetic_energy: {:?}, for_at_least: {for_at_least}, at_most: {at_most}),",
+                still.kinetic_energy
+            )?;
+        }
+        writeln!(out, "    time: (")?;
+        writeln!(out, "        step: {},", step(self.time.step))?;
+        writeln!(
+            out,
+            "        integrator: {},",
+            integrator(self.time.integrator)
+        )?;
+        match self.time.end {
+            End::Until(time) => {
+                writeln!(out, "        until: {},", quantity(Dimension::Time, time))?
+            }
+            End::Steps(count) => writeln!(out, "        steps: {count},")?,
+        }
+        writeln!(out, "    ),")?;
+        match self.skin {
+            Some(skin) => writeln!(out, "    neighbours: (skin: {skin:?}),")?,
+            None => writeln!(out, "    neighbours: (), // the program chooses the skin")?,
+        }
+        self.output.write_to(out)?;
+        writeln!(out, ")")
+    }
+}
+
+impl Grains {
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        let Law::Repulsion { stiffness, damping } = &self.law;
+        let stiffness = match stiffness {
+            Stiffness::YoungModulus(modulus) => {
+                format!("YoungModulus({})", quantity(Dimension::Pressure, *modulus))
+            }
+            Stiffness::Energy { epsilon, sigma } => {
+                format!(
+                    "Energy(epsilon: {}, sigma: {})",
+                    quantity(Dimension::Energy, *epsilon),
+                    quantity(Dimension::Length, *sigma)
+                )
+            }
+        };
+        let gamma = |value: f64| quantity(Dimension::Damping, value);
+        let damping = match damping {
+            Damping::Equal(both) => format!("Equal({})", gamma(*both)),
+            Damping::Parts { normal, tangential } => format!(
+                "Parts(normal: {}, tangential: {})",
+                gamma(*normal),
+                gamma(*tangential)
+            ),
+        };
+        writeln!(out, "    grains: (")?;
+        writeln!(
+            out,
+            "        diameter: {},",
+            quantity(Dimension::Length, self.diameter)
+        )?;
+        writeln!(
+            out,
+            "        mass: {}, // {:.6} kg/m3",
+            quantity(Dimension::Mass, self.mass),
+            self.density()
+        )?;
+        writeln!(
+            out,
+            "        law: Repulsion(stiffness: {stiffness}, damping: {damping}),"
+        )?;
+        writeln!(out, "        soften: {:?},", self.soften)?;
+        writeln!(
+            out,
+            "        softened_damping: {:?},",
+            self.softened_damping
+        )?;
+        writeln!(out, "        coarse: {},", self.coarse)?;
+        writeln!(out, "        coarse_rule: {:?},", self.coarse_rule)?;
+        writeln!(out, "    ),")
+    }
+}
+
+impl Wall {
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        let Shape::HalfSpace { point, outward } = self.shape;
+        let outward = outward
+            .to_array()
+            .map(|part| format!("{part:?}"))
+            .join(", ");
+        writeln!(out, "        (")?;
+        writeln!(out, "            name: {},", text(&self.name))?;
+        writeln!(
+            out,
+            "            shape: HalfSpace(point: {}, outward: ({outward})),",
+            triple(Dimension::Length, point)
+        )?;
+        if let Some(restitution) = self.restitution {
+            writeln!(out, "            restitution: {restitution:?},")?;
+        }
+        if let Some(friction) = self.friction {
+            writeln!(out, "            friction: {friction:?},")?;
+        }
+        writeln!(out, "            touches_at: {:?},", self.touches_at)?;
+        let removed = match self.removed {
+            Removal::Never => "Never".into(),
+            Removal::WhenStill => "WhenStill".into(),
+            Removal::At(time) => format!("At({})", quantity(Dimension::Time, time)),
+        };
+        writeln!(out, "            removed: {removed},")?;
+        writeln!(out, "        ),")
+    }
+}
+
+impl Initial {
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        writeln!(out, "    initial: (")?;
+        match self {
+            Initial::File(path) => {
+                writeln!(out, "        file: {},", text(&path.display().to_string()))?
+            }
+            Initial::Fill(fill) => {
+                let (min, max) = (
+                    triple(Dimension::Length, fill.min),
+                    triple(Dimension::Length, fill.max),
+                );
+                writeln!(out, "        fill: (")?;
+                writeln!(out, "            region: (min: {min}, max: {max}),")?;
+                writeln!(
+                    out,
+                    "            solid_fraction: {:?},",
+                    fill.solid_fraction
+                )?;
+                writeln!(out, "            seed: {},", fill.seed)?;
+                writeln!(out, "        ),")?;
+            }
+            Initial::Grains(grains) => {
+                writeln!(out, "        grains: [")?;
+                for StartingGrain { at, velocity } in grains {
+                    let (at, velocity) = (
+                        triple(Dimension::Length, *at),
+                        triple(Dimension::Velocity, *velocity),
+                    );
+                    writeln!(out, "            (at: {at}, velocity: {velocity}),")?;
+                }
+                writeln!(out, "        ],")?;
+            }
+        }
+        writeln!(out, "    ),")
+    }
+}
+
+impl Output {
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        writeln!(out, "    output: (")?;
+        if let Some(every) = self.every {
+            writeln!(out, "        every: {},", quantity(Dimension::Time, every))?;
+        }
+        writeln!(out, "        frames: {},", self.frames)?;
+        if let Some(every) = self.frames_every {
+            writeln!(
+                out,
+                "        frames_every: {},",
+                quantity(Dimension::Time, every)
+            )?;
+        }
+        writeln!(out, "        energies: {},", self.energies)?;
+        writeln!(out, "        animation: {},", self.animation)?;
+        writeln!(out, "    ),")
+    }
+}
+
+/// A text in quotes; what RON cannot hold as it is, escaped.
+pub(crate) fn text(text: &str) -> String {
+    let mut out = String::from("\"");
+    for sign in text.chars() {
+        match sign {
+            '"' | '\\' => out.extend(['\\', sign]),
+            sign if sign.is_control() => out.extend(sign.escape_unicode()),
+            sign => out.push(sign),
+        }
+    }
+    out.push('"');
+    out
+}
+
+fn quantity(dimension: Dimension, value: f64) -> String {
+    format!("\"{}\"", write(dimension, value))
+}
+
+fn triple(dimension: Dimension, value: DVec3) -> String {
+    format!(
+        "({})",
+        value
+            .to_array()
+            .map(|part| quantity(dimension, part))
+            .join(", ")
+    )
+}
+
+fn axis(axis: Axis) -> String {
+    match axis {
+        Axis::Open => "Open".into(),
+        Axis::Periodic(length) => format!("Periodic({})", quantity(Dimension::Length, length)),
+    }
+}
+
+fn step(step: Step) -> String {
+    match step {
+        Step::PerPeriod(count) => format!("PerPeriod({count:?})"),
+        Step::Seconds(time) => format!("Seconds({})", quantity(Dimension::Time, time)),
+        Step::Exactly(time) => format!("Exactly({})", quantity(Dimension::Time, time)),
+    }
+}
+
+fn integrator(integrator: Integrator) -> String {
+    match integrator {
+        Integrator::VerletAveraged { sweeps } => format!("VerletAveraged(sweeps: {sweeps})"),
+        Integrator::DashpotImplicit { sweeps } => format!("DashpotImplicit(sweeps: {sweeps})"),
+        plain => format!("{plain:?}"),
+    }
+}

@@ -1,0 +1,207 @@
+//! What a single field cannot know: ranges, names, and which fields go together.
+
+mod grains;
+mod initial;
+mod time;
+mod walls;
+
+use std::path::Path;
+
+use crate::raw::{ONE_OF, RawAxis, RawDomain, RawScene, RawSpace};
+use crate::scene::{Axis, Domain, Output, Scene, Space};
+
+/// A rule that a scene breaks, at the field of a path.
+pub(crate) struct Refusal {
+    pub path: String,
+    pub what: String,
+    pub remedy: String,
+}
+
+/// The rules, and what they have refused so far.
+pub(crate) struct Rules<'a> {
+    /// The folder that relative paths start from.
+    folder: &'a Path,
+    space: Space,
+    pub refusals: Vec<Refusal>,
+}
+
+/// Standard gravity, m/s².
+const GRAVITY: f64 = 9.80665;
+
+impl<'a> Rules<'a> {
+    pub fn new(folder: &'a Path) -> Self {
+        Rules {
+            folder,
+            space: Space::Space,
+            refusals: Vec::new(),
+        }
+    }
+
+    /// The checked scene; it is to be used only if nothing was refused.
+    pub fn scene(&mut self, raw: RawScene) -> Option<Scene> {
+        self.space = match raw.space {
+            None | Some(RawSpace::Space) => Space::Space,
+            Some(RawSpace::Plane) => Space::Plane,
+        };
+        let gravity = raw.gravity.map_or(GRAVITY, |gravity| gravity.0);
+        if gravity < 0.0 {
+            self.refuse(
+                "gravity",
+                "gravity is negative",
+                "it already points downwards, along -z: write it without the sign",
+            );
+        }
+        let grains = self.grains(raw.grains);
+        let domain = raw
+            .domain
+            .map_or(Domain::default(), |domain| self.domain(domain, gravity));
+        let walls = self.walls(raw.walls.unwrap_or_default(), &domain);
+        let initial = self.initial(raw.initial, &domain);
+        let still = raw.still.map(|still| self.still(&still));
+        let time = self.time(&raw.time);
+        let skin = raw
+            .neighbours
+            .and_then(|neighbours| neighbours.skin)
+            .map(|skin| skin.0);
+        if skin.is_some_and(|skin| !(skin > 0.0 && skin <= 1.0)) {
+            self.refuse(
+                "neighbours.skin",
+                "the skin is outside (0, 1]",
+                "it is a share of the grain's diameter, usually 0.05 to 0.3",
+            );
+        }
+        let output = raw
+            .output
+            .map_or(Output::default(), |output| self.output(&output));
+        let scene = Scene {
+            title: raw.title,
+            space: self.space,
+            gravity,
+            grains: grains?,
+            domain,
+            walls,
+            initial: initial?,
+            still,
+            time: time?,
+            skin,
+            output,
+        };
+        if scene.waits_for_stillness() && scene.still.is_none() {
+            let remedy =
+                "add still: (kinetic_energy: 1e-4, for_at_least: \"20 ms\", at_most: \"3 s\")";
+            self.refuse(
+                "",
+                "a wall is removed WhenStill, but the block “still” does not say when that is",
+                remedy,
+            );
+        }
+        if !scene.waits_for_stillness() && scene.still.is_some() {
+            let remedy = "remove the block, or write removed: WhenStill for a wall";
+            self.refuse(
+                "still",
+                "no wall is removed WhenStill, so “still” would be ignored",
+                remedy,
+            );
+        }
+        Some(scene)
+    }
+
+    fn refuse(
+        &mut self,
+        path: impl Into<String>,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        self.refusals.push(Refusal {
+            path: path.into(),
+            what: what.into(),
+            remedy: remedy.into(),
+        });
+    }
+
+    fn above_zero(&mut self, path: &str, name: &str, value: f64) -> f64 {
+        if value <= 0.0 {
+            self.refuse(
+                path,
+                format!("{name} is not above zero"),
+                "write a value above zero",
+            );
+        }
+        value
+    }
+
+    fn not_negative(&mut self, path: &str, name: &str, value: f64) -> f64 {
+        if value < 0.0 {
+            self.refuse(
+                path,
+                format!("{name} is negative"),
+                "write zero or a value above",
+            );
+        }
+        value
+    }
+
+    /// Refuses unless exactly one of the fields of a block is given.
+    fn exactly_one(&mut self, block: &str, given: &[bool]) {
+        let fields = ONE_OF
+            .iter()
+            .find(|(path, _)| *path == block)
+            .map_or(&[][..], |(_, fields)| fields);
+        let list = fields.join(", ");
+        let present: Vec<_> = fields
+            .iter()
+            .zip(given)
+            .filter(|(_, given)| **given)
+            .map(|(field, _)| *field)
+            .collect();
+        match present[..] {
+            [] => self.refuse(
+                block,
+                format!("{block} has none of {list}"),
+                format!("give exactly one of {list}"),
+            ),
+            [_] => {}
+            [first, second, ..] => {
+                let what = format!("{block} has both {first} and {second}");
+                self.refuse(
+                    format!("{block}.{second}"),
+                    what,
+                    format!("give exactly one of {list}"),
+                );
+            }
+        }
+    }
+
+    fn domain(&mut self, raw: RawDomain, gravity: f64) -> Domain {
+        if self.space == Space::Plane && raw.y.is_some() {
+            self.refuse(
+                "domain.y",
+                "a plane scene has no y axis",
+                "remove y, or write space: Space",
+            );
+        }
+        if gravity > 0.0 && matches!(raw.z, Some(RawAxis::Periodic(_))) {
+            self.refuse(
+                "domain.z",
+                "grains would fall for ever through a periodic z",
+                "write z: Open, or gravity: \"0 m/s2\"",
+            );
+        }
+        Domain {
+            x: self.axis("domain.x", raw.x),
+            y: self.axis("domain.y", raw.y),
+            z: self.axis("domain.z", raw.z),
+        }
+    }
+
+    fn axis(&mut self, path: &str, raw: Option<RawAxis>) -> Axis {
+        match raw {
+            None | Some(RawAxis::Open) => Axis::Open,
+            Some(RawAxis::Periodic(length)) => Axis::Periodic(self.above_zero(
+                &format!("{path}[0]"),
+                "the periodic length",
+                length.0,
+            )),
+        }
+    }
+}

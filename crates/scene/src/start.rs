@@ -1,0 +1,28 @@
+//! The grains at the start, as far as the scene lists them or names their file.
+
+use crate::check::Checked;
+use crate::error::SceneError;
+use crate::grain_file::GrainFile;
+use crate::scene::{Initial, StartingGrain};
+
+impl Checked {
+    /// The grains listed in the scene or read from its file; `None` if they are to be placed by a [`Fill`](crate::Fill).
+    ///
+    /// # Errors
+    /// At `initial.file` when the file cannot be read, and at the file's own line and column when its content is wrong.
+    pub fn starting_grains(&self) -> Result<Option<Vec<StartingGrain>>, SceneError> {
+        match &self.scene.initial {
+            Initial::Fill(_) => Ok(None),
+            Initial::Grains(grains) => Ok(Some(grains.clone())),
+            Initial::File(path) => {
+                if !path.is_file() {
+                    let what = format!("there is no grain file {}", path.display());
+                    let remedy = "a path in a scene starts from the scene's folder; --set initial.file=PATH names another file";
+                    return Err(self.problem("initial.file", what, remedy));
+                }
+                GrainFile::read(path, self.scene.grains.diameter, self.scene.space)
+                    .map(|file| Some(file.grains))
+            }
+        }
+    }
+}

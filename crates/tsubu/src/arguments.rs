@@ -1,0 +1,93 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+use tsubu::engine::Lanes;
+
+/// Granular physics for machines and rivers.
+#[derive(Debug, Parser)]
+#[command(
+    name = "tsubu",
+    version,
+    arg_required_else_help = true,
+    after_help = "Try:  tsubu run scenarios/angle_of_repose.ron --set grains.coarse=3\n\nExit codes: 0 done, 2 the scene or the arguments are wrong, 3 the physics failed, 4 the machine failed, 130 stopped by a signal."
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene and write its results, figures and an animation into a folder
+    #[command(after_help = "Example:  tsubu run scenarios/angle_of_repose.ron --set grains.coarse=3 --until \"2 s\"")]
+    Run(RunWish),
+    /// Say what a scene models and what not, its step against the limits, and what it will cost
+    #[command(after_help = "Example:  tsubu check scenarios/angle_of_repose.ron --set grains.coarse=1")]
+    Check(CheckWish),
+    /// List the shipped scenes
+    Scenes,
+    /// Copy a shipped scene here, to edit
+    Init {
+        /// Name of the scene (see `tsubu scenes`)
+        name: String,
+    },
+}
+
+/// Which scene, with which changes.
+#[derive(Debug, Args)]
+pub struct SceneWish {
+    /// The scene file
+    pub scene: PathBuf,
+    /// Change a field of the scene, as grains.coarse=3 or walls.floor.friction=0.2; may be given many times
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// End of the run, as "2 s"; short for --set time.until=…
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<String>,
+    /// Threads [default: as many as pay for the number of grains]; changes no bit of the result
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Vector instructions; changes no bit of the result
+    #[arg(long, value_parser = lanes, default_value = "auto", value_name = "auto|portable|avx2|avx512")]
+    pub lanes: LanesWish,
+    /// Run even if the step is over its limit
+    #[arg(long)]
+    pub allow_unstable: bool,
+}
+
+/// `tsubu run`.
+#[derive(Debug, Args)]
+pub struct RunWish {
+    /// Which scene.
+    #[command(flatten)]
+    pub scene: SceneWish,
+    /// Folder for the results [default: out/<scene>, or the next free out/<scene>-2]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Overwrite an earlier run in that folder
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// `tsubu check`.
+#[derive(Debug, Args)]
+pub struct CheckWish {
+    /// Which scene.
+    #[command(flatten)]
+    pub scene: SceneWish,
+}
+
+/// A vector path, or the widest.
+#[derive(Clone, Copy, Debug)]
+pub struct LanesWish(pub Option<Lanes>);
+
+fn lanes(text: &str) -> Result<LanesWish, String> {
+    if text == "auto" {
+        return Ok(LanesWish(None));
+    }
+    let lanes = Lanes::ALL.into_iter().find(|l| l.name() == text).ok_or("expected auto, portable, avx2 or avx512")?;
+    if lanes.is_here() { Ok(LanesWish(Some(lanes))) } else { Err(format!("this machine has no {text}; auto takes the widest it has")) }
+}

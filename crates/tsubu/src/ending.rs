@@ -1,0 +1,114 @@
+//! The end of a run: the summary, and one paragraph for the person who waited.
+
+use crate::rows::Rows;
+use crate::trouble::Trouble;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use tsubu::assemble::{Plan, Simulation, Stop};
+use tsubu::engine::Health;
+use tsubu::record::{RunFolder, Summary};
+use tsubu::scene::Scene;
+
+/// How long a run took: in all, and in steps alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Spent {
+    /// From start to end.
+    pub wall: Duration,
+    /// In steps and list builds, without looking, writing and drawing.
+    pub stepping: Duration,
+}
+
+impl Spent {
+    /// Grain-steps per second of stepping.
+    pub fn rate(&self, run: &dyn Simulation) -> f64 {
+        run.grains() as f64 * run.steps() as f64 / self.stepping.as_secs_f64().max(1e-9)
+    }
+}
+
+/// Writes `summary.json`.
+pub fn summary(folder: &RunFolder, scene: &Scene, plan: &Plan, run: &dyn Simulation, rows: &Rows, spent: Spent, ended: &str) -> Result<(), Trouble> {
+    let mut summary = Summary::new();
+    summary.text("title", &scene.title);
+    summary.text("version", env!("CARGO_PKG_VERSION"));
+    summary.text("ended", ended);
+    for reading in run.report() {
+        summary.measured(reading.name, reading.value, reading.uncertainty, reading.unit);
+    }
+    summary.plain("time", run.time(), "s");
+    if let Some(released) = run.released_at() {
+        summary.plain("released_at", released, "s");
+    }
+    summary.plain("steps", run.steps() as f64, "");
+    summary.plain("step", plan.constants.dt, "s");
+    summary.plain("grains", run.grains() as f64, "");
+    summary.plain("grain_steps_per_second", spent.rate(run), "1/s");
+    summary.plain("bytes_per_grain", run.bytes_per_grain(), "B");
+    summary.plain("threads", plan.threads as f64, "");
+    summary.plain("wall_time", spent.wall.as_secs_f64(), "s");
+    summary.text("lanes", plan.lanes);
+    summary.text("integrator", plan.constants.scheme.name());
+    if plan.constants.scheme.sweeps() > 0 {
+        summary.plain("solve_residual", run.solve_residual(), "m/s");
+    }
+    summary.list("sources", &plan.constants.sources);
+    summary.table("series_units", &rows.units());
+    Ok(summary.write(folder)?)
+}
+
+/// The closing words of a run that reached its end.
+pub fn words(run: &dyn Simulation, plan: &Plan, spent: Spent, folder: &Path, film: Option<&PathBuf>, figures: &[PathBuf], scene_file: &Path) -> String {
+    let report = run.report();
+    let find = |name: &str| report.iter().find(|r| r.name == name);
+    let result = match (find("angle_of_repose"), run.released_at()) {
+        (Some(angle), Some(released)) if angle.value.is_finite() => format!(
+            "Angle of repose {:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
+            angle.value,
+            angle.uncertainty.map_or(String::new(), |u| format!(" ± {u:.1}")),
+            run.time() - released
+        ),
+        _ => format!("{} grains, {:.4} s of simulated time.", run.grains(), run.time()),
+    };
+    let mut text = format!(
+        "{result}\n{:.1} s of wall time, {:.1} million grain-steps/s on {} thread{}; results in {}",
+        spent.wall.as_secs_f64(),
+        spent.rate(run) / 1e6,
+        plan.threads,
+        if plan.threads == 1 { "" } else { "s" },
+        folder.display()
+    );
+    if let Some(film) = film {
+        text += &format!("\n  animation  {}", film.display());
+    }
+    if let Some(figure) = figures.first() {
+        text += &format!("\n  figure     {}", figure.display());
+    }
+    text += &format!("\nNext, try:  tsubu run {} --set grains.coarse={}", scene_file.display(), if plan.constants.lambda > 4.0 { 2 } else { 3 });
+    text
+}
+
+/// What to tell when the physics failed.
+pub fn failure(stop: &Stop, plan: &Plan) -> String {
+    let smaller = format!(
+        "help: try a smaller step (now {:.3e} s, {:.0} per contact period), or a softer start; `tsubu check` shows the limits",
+        plan.constants.dt,
+        plan.constants.period / plan.constants.dt
+    );
+    let place = |p: &[f64; 3]| format!("({:.6}, {:.6}, {:.6}) m", p[0], p[1], p[2]);
+    match stop {
+        Stop::Over => "the run is over".to_owned(),
+        Stop::NeverStill { time, agitation, asked } => format!(
+            "the grains were not still after {time:.3} s: kinetic energy per grain is {agitation:.2e} of m g d, the scene asks for {asked:.2e}\n\
+             help: raise still.kinetic_energy or still.at_most"
+        ),
+        Stop::Trouble(Health::Runaway { grain, place: at, speed, time }) => {
+            format!("grain {grain} ran away at t = {time:.6} s, at {}: its speed is {speed:.3e} m/s\n{smaller}", place(at))
+        }
+        Stop::Trouble(Health::DeepOverlap { grain, partner, place: at, share, time }) => format!(
+            "grains {grain} and {partner} overlap by {:.0} % of their diameter at t = {time:.6} s, at {}: the law is not made for that\n\
+             help: soften less (grains.soften), or lower the speed of impact",
+            100.0 * share,
+            place(at)
+        ),
+        Stop::Trouble(Health::Fine) => smaller,
+    }
+}

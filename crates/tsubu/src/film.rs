@@ -1,0 +1,149 @@
+//! Snapshots for frames and the animation: kept small by thinning, drawn when the run is over and its extent known.
+
+use crate::trouble::Trouble;
+use glam::DVec3;
+use std::path::PathBuf;
+use std::time::Duration;
+use tsubu::assemble::{Simulation, Snapshot};
+use tsubu::picture::{Animation, Camera, Image, Radii, Scene3, Segment, View};
+use tsubu::record::{Column, Frame, FrameWriter, RunFolder};
+
+/// Most grains kept in memory for the animation, over all its pictures.
+const MOST_KEPT: usize = 12_000_000;
+/// Most pictures of an animation.
+const MOST_PICTURES: usize = 240;
+
+/// One picture to come.
+struct Shot {
+    time: f64,
+    centres: Vec<[f32; 3]>,
+    speeds: Vec<f32>,
+    walls: Vec<[DVec3; 2]>,
+}
+
+/// Collects snapshots.
+pub struct Film {
+    shots: Vec<Shot>,
+    radius: f32,
+    /// Every how many-th snapshot is kept.
+    keep: usize,
+    seen: usize,
+}
+
+/// Writes a ParaView frame.
+pub fn write_frame(frames: &mut FrameWriter, snapshot: &Snapshot) -> Result<(), Trouble> {
+    let points: Vec<[f32; 3]> = snapshot.grains.iter().map(|g| g.position).collect();
+    let velocity: Vec<[f32; 3]> = snapshot.grains.iter().map(|g| g.velocity).collect();
+    let radius: Vec<f32> = snapshot.grains.iter().map(|g| g.radius).collect();
+    let id: Vec<u32> = snapshot.grains.iter().map(|g| g.identity).collect();
+    let columns = [("velocity", Column::Vector(&velocity)), ("radius", Column::Scalar(&radius)), ("id", Column::Id(&id))];
+    Ok(frames.write(snapshot.time, &Frame { points: &points, columns: &columns })?)
+}
+
+impl Film {
+    /// Nothing yet.
+    pub fn new() -> Self {
+        Self { shots: Vec::new(), radius: 0.0, keep: 1, seen: 0 }
+    }
+
+    /// Keeps a snapshot, or not, so that the whole stays within bounds and evenly spaced.
+    pub fn add(&mut self, run: &dyn Simulation, snapshot: &Snapshot) {
+        let due = self.seen % self.keep == 0;
+        self.seen += 1;
+        if !due {
+            return;
+        }
+        self.radius = snapshot.grains.first().map_or(0.0, |g| g.radius);
+        let far = DVec3::splat(1e3);
+        self.shots.push(Shot {
+            time: snapshot.time,
+            centres: snapshot.grains.iter().map(|g| g.position).collect(),
+            speeds: snapshot.grains.iter().map(|g| glam::Vec3::from(g.velocity).length()).collect(),
+            walls: run.outlines(-far, far),
+        });
+        if self.shots.len() > MOST_PICTURES || self.shots.len() * snapshot.grains.len() > MOST_KEPT {
+            let mut number = 0;
+            self.shots.retain(|_| {
+                number += 1;
+                number % 2 == 1
+            });
+            self.keep *= 2;
+        }
+    }
+
+    /// Draws the animation and a poster of the last moment; `None` if there was nothing to show.
+    pub fn draw(&self, folder: &RunFolder, zero: Option<f64>) -> Result<Option<(PathBuf, PathBuf)>, Trouble> {
+        if self.shots.iter().all(|s| s.centres.is_empty()) {
+            return Ok(None);
+        }
+        let (low, high) = self.extent();
+        let fastest = self.usual_top_speed();
+        let size = high - low;
+        let width = 960usize;
+        let height = ((width as f64 * (size.z / size.x.max(1e-12))) as usize + 90).clamp(240, 900) / 2 * 2;
+        let path = folder.path("animation.gif");
+        let mut animation = Animation::create(&path, width, height, Duration::from_millis(60))?;
+        let mut last = None;
+        for shot in &self.shots {
+            let image = self.picture(shot, low, high, fastest, (width, height), zero);
+            animation.push(&image)?;
+            last = Some(image);
+        }
+        let path = animation.finish()?;
+        let poster = folder.path("figures/last.png");
+        if let Some(image) = last {
+            image.save_png(&poster)?;
+        }
+        Ok(Some((path, poster)))
+    }
+
+    fn picture(&self, shot: &Shot, low: DVec3, high: DVec3, fastest: f32, size: (usize, usize), zero: Option<f64>) -> Image {
+        let single = |x: DVec3| x.as_vec3().to_array();
+        // Walls are drawn as the lines in which they cross the picture's box.
+        let clip = |x: DVec3| x.clamp(low, high);
+        let segments: Vec<Segment> = shot
+            .walls
+            .iter()
+            .map(|[a, b]| [clip(*a), clip(*b)])
+            .filter(|[a, b]| a != b)
+            .map(|[a, b]| Segment { from: single(a), to: single(b) })
+            .collect();
+        let scene = Scene3 { centres: &shot.centres, radii: Radii::Same(self.radius), values: &shot.speeds, quads: &[], segments: &segments };
+        let time = match zero {
+            Some(zero) if shot.time >= zero => format!("{:.2} s after release", shot.time - zero),
+            Some(_) => "settling".to_owned(),
+            None => format!("{:.4} s", shot.time),
+        };
+        let view = View { width: size.0, height: size.1, range: (0.0, fastest), label: "speed (m/s)", time: &time };
+        scene.draw(&Camera::front(single(low), single(high)), &view)
+    }
+
+    /// The box that holds nearly all grains of all pictures: a stray grain does not shrink the heap.
+    fn extent(&self) -> (DVec3, DVec3) {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for shot in &self.shots {
+            for axis in 0..3 {
+                let mut values: Vec<f32> = shot.centres.iter().map(|c| c[axis]).filter(|v| v.is_finite()).collect();
+                if values.is_empty() {
+                    continue;
+                }
+                values.sort_unstable_by(f32::total_cmp);
+                let skip = values.len() / 500;
+                low[axis] = low[axis].min(f64::from(values[skip]));
+                high[axis] = high[axis].max(f64::from(values[values.len() - 1 - skip]));
+            }
+        }
+        let room = DVec3::splat(1.2 * f64::from(self.radius));
+        (low - room, high + room)
+    }
+
+    /// 95 % of grains are slower than this in the fastest picture.
+    fn usual_top_speed(&self) -> f32 {
+        let top = |shot: &Shot| {
+            let mut speeds: Vec<f32> = shot.speeds.iter().copied().filter(|v| v.is_finite()).collect();
+            speeds.sort_unstable_by(f32::total_cmp);
+            speeds.get(speeds.len() * 95 / 100).copied().unwrap_or(0.0)
+        };
+        self.shots.iter().map(top).fold(0.0, f32::max).max(1e-6)
+    }
+}

@@ -1,0 +1,57 @@
+//! The rows of `series.csv`, kept as columns for the figures.
+
+use crate::trouble::Trouble;
+use tsubu::assemble::Simulation;
+use tsubu::record::{RunFolder, SeriesWriter};
+
+/// Rows written and kept.
+pub struct Rows {
+    writer: SeriesWriter,
+    names: Vec<&'static str>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Rows {
+    /// Looks once, writes the header and the first row.
+    pub fn start(folder: &RunFolder, run: &mut dyn Simulation) -> Result<Self, Trouble> {
+        let readings = run.look();
+        let mut header: Vec<(&str, &str)> = vec![("time", "s")];
+        header.extend(readings.iter().map(|r| (r.name, r.unit)));
+        let writer = SeriesWriter::create(folder, &header)?;
+        let names: Vec<&'static str> = std::iter::once("time").chain(readings.iter().map(|r| r.name)).collect();
+        let mut rows = Self { writer, columns: vec![Vec::new(); names.len()], names };
+        rows.put(run.time(), readings.iter().map(|r| r.value))?;
+        Ok(rows)
+    }
+
+    /// Looks and writes a row.
+    pub fn add(&mut self, run: &mut dyn Simulation) -> Result<(), Trouble> {
+        let readings = run.look();
+        self.put(run.time(), readings.iter().map(|r| r.value))
+    }
+
+    fn put(&mut self, time: f64, values: impl Iterator<Item = f64>) -> Result<(), Trouble> {
+        let row: Vec<f64> = std::iter::once(time).chain(values).collect();
+        self.writer.row(&row)?;
+        for (column, value) in self.columns.iter_mut().zip(row) {
+            column.push(value);
+        }
+        Ok(())
+    }
+
+    /// A column by name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let at = self.names.iter().position(|n| *n == name)?;
+        Some(&self.columns[at])
+    }
+
+    /// Units by column, for the summary.
+    pub fn units(&self) -> Vec<(String, String)> {
+        self.writer.units().to_vec()
+    }
+
+    /// Closes the file.
+    pub fn finish(self) -> Result<(), Trouble> {
+        Ok(self.writer.finish()?)
+    }
+}

@@ -1,0 +1,88 @@
+//! `cargo xtask validate`: suites of checks, each against numbers from outside the code.
+//!
+//! A suite is one row of [`SUITES`] and one module with a function that fills a [`Report`].
+
+mod check;
+mod coarsen;
+mod collision;
+mod lab;
+mod report;
+mod wca;
+
+use report::Report;
+use std::path::Path;
+
+/// A suite.
+struct Suite {
+    name: &'static str,
+    /// What it holds against what.
+    about: &'static str,
+    /// Grain-steps of the long version, stated before it starts.
+    full_grain_steps: f64,
+    run: fn(&mut Report) -> Result<(), String>,
+}
+
+/// Every suite, in the order in which they run.
+const SUITES: &[Suite] = &[
+    Suite {
+        name: "collision",
+        about: "two grains, a wall, a row: restitution, order, limits, energy, bits",
+        full_grain_steps: collision::FULL_GRAIN_STEPS,
+        run: collision::run,
+    },
+    Suite {
+        name: "coarsen",
+        about: "what coarse-graining keeps and what it does not",
+        full_grain_steps: coarsen::FULL_GRAIN_STEPS,
+        run: coarsen::run,
+    },
+];
+
+/// Grain-steps per second that the estimate of `--full` assumes: most suites step a handful of grains
+/// at a time, where the cost is that of the step and not of the grain.
+const ASSUMED_SPEED: f64 = 5e6;
+
+/// Runs the named suites, or all; true if every check held.
+pub fn run(root: &Path, names: &[String], full: bool) -> Result<bool, String> {
+    let chosen = choose(names)?;
+    if full {
+        let planned: f64 = chosen.iter().map(|s| s.full_grain_steps).sum();
+        eprintln!(
+            "planned: {planned:.1e} grain-steps, about {:.2} h at {ASSUMED_SPEED:.0e} grain-steps/s",
+            planned / ASSUMED_SPEED / 3600.0
+        );
+    }
+    let mut held = true;
+    for suite in chosen {
+        println!("{} – {}", suite.name, suite.about);
+        let mut report = Report::new(suite.name, root, full);
+        (suite.run)(&mut report)?;
+        held &= report.finish()?;
+    }
+    Ok(held)
+}
+
+fn choose(names: &[String]) -> Result<Vec<&'static Suite>, String> {
+    if names.is_empty() {
+        return Ok(SUITES.iter().collect());
+    }
+    let find = |name: &String| {
+        SUITES.iter().find(|s| s.name == name).ok_or_else(|| {
+            let all: Vec<String> = SUITES.iter().map(|s| format!("  {:<10} {}", s.name, s.about)).collect();
+            format!("there is no suite `{name}`; the suites are\n{}", all.join("\n"))
+        })
+    };
+    names.iter().map(find).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_means_every_suite_and_an_unknown_one_lists_them() {
+        assert_eq!(choose(&[]).map(|s| s.len()), Ok(SUITES.len()));
+        let message = choose(&["colision".into()]).err().unwrap_or_default();
+        assert!(SUITES.iter().all(|s| message.contains(s.name)), "{message}");
+    }
+}
