@@ -66,6 +66,13 @@ pub(crate) struct Columns(pub [[f64; LANES]; 8]);
 pub(crate) trait Gather {
     /// The lines of `block`, whose indices the caller has checked against `lines`.
     fn gather(lines: &[Line], block: &[u32; LANES]) -> Columns;
+
+    /// The sum of eight lanes by the one tree that every path follows: halves, quarters, the last two.
+    #[inline(always)]
+    fn fold(l: [f64; LANES]) -> f64 {
+        let four = [l[0] + l[4], l[1] + l[5], l[2] + l[6], l[3] + l[7]];
+        (four[0] + four[2]) + (four[1] + four[3])
+    }
 }
 
 /// The force loop of a chunk on the vector path `lanes`.
@@ -175,6 +182,26 @@ mod x86 {
                 out
             }
         }
+
+        #[inline(always)]
+        fn fold(l: [f64; LANES]) -> f64 {
+            // SAFETY: only inlined into `run_avx512`.
+            unsafe {
+                let v = _mm512_loadu_pd(l.as_ptr());
+                fold_halves(_mm512_castpd512_pd256(v), _mm512_extractf64x4_pd::<1>(v))
+            }
+        }
+    }
+
+    /// The tree of `Gather::fold` from the two halves on.
+    #[inline(always)]
+    unsafe fn fold_halves(low: __m256d, high: __m256d) -> f64 {
+        // SAFETY: only inlined under AVX2 or wider.
+        unsafe {
+            let four = _mm256_add_pd(low, high);
+            let two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd::<1>(four));
+            _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)))
+        }
     }
 
     struct Avx2;
@@ -201,6 +228,12 @@ mod x86 {
                 }
                 out
             }
+        }
+
+        #[inline(always)]
+        fn fold(l: [f64; LANES]) -> f64 {
+            // SAFETY: only inlined into `run_avx2`.
+            unsafe { fold_halves(_mm256_loadu_pd(l.as_ptr()), _mm256_loadu_pd(l.as_ptr().add(4))) }
         }
     }
 

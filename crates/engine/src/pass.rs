@@ -82,28 +82,36 @@ where
             };
             let pair = if K::INDEXED { job.pairs[own[D::KIND][k] as usize * job.kinds + other[D::KIND][k] as usize] } else { only };
             let push = L::force(&pair, &touch, &mut L::Memory::zero(), job.dt);
-            let total = push.total();
-            for a in 0..D::V::AXES {
-                push_of[a][k] = total.axis(a);
-                if T::ON {
-                    lost_of[a][k] = push.viscous.axis(a);
-                }
+            put(&mut push_of, k, push.total());
+            if T::ON {
+                put(&mut lost_of, k, push.viscous);
             }
         }
         for b in 0..together {
             let slot = owners[b] as usize;
-            force[slot] += D::V::from_axes(|a| fold(&push_of[a], b));
+            force[slot] += D::V::from_axes(|a| fold::<G, WIDE>(&push_of[a], b));
             if T::ON {
-                viscous[slot] += D::V::from_axes(|a| fold(&lost_of[a], b));
+                viscous[slot] += D::V::from_axes(|a| fold::<G, WIDE>(&lost_of[a], b));
             }
         }
     }
 }
 
-/// The one sum tree over the eight lanes of block `b`.
+/// Lane `k` of a vector, coordinate by coordinate: written out, since a loop here would keep the
+/// loop over the lanes from becoming vector code.
 #[inline(always)]
-fn fold<const WIDE: usize>(lanes: &[f64; WIDE], b: usize) -> f64 {
-    let lane = |k: usize| lanes[b * LANES + k];
-    let four = [lane(0) + lane(4), lane(1) + lane(5), lane(2) + lane(6), lane(3) + lane(7)];
-    (four[0] + four[2]) + (four[1] + four[3])
+fn put<V: Vector, const WIDE: usize>(lanes: &mut [[f64; WIDE]; 3], k: usize, v: V) {
+    lanes[0][k] = v.axis(0);
+    lanes[1][k] = v.axis(1);
+    if V::AXES > 2 {
+        lanes[2][k] = v.axis(2);
+    }
+}
+
+/// The sum over the eight lanes of block `b`.
+#[inline(always)]
+fn fold<G: Gather, const WIDE: usize>(lanes: &[f64; WIDE], b: usize) -> f64 {
+    let mut eight = [0.0; LANES];
+    eight.copy_from_slice(&lanes[b * LANES..(b + 1) * LANES]);
+    G::fold(eight)
 }

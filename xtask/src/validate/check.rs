@@ -87,7 +87,16 @@ impl Check {
     ) -> Self {
         let pass = tolerance.holds(expected, got);
         let note = note.to_string();
-        Self { suite, name, expected, got, tolerance, evidence, pass, note }
+        Self {
+            suite,
+            name,
+            expected,
+            got,
+            tolerance,
+            evidence,
+            pass,
+            note,
+        }
     }
 }
 
@@ -96,7 +105,16 @@ mod tests {
     use super::*;
 
     fn passes(expected: f64, got: f64, tolerance: Tolerance) -> bool {
-        Check::new("t", "n".into(), expected, got, tolerance, Evidence::Analytic, "").pass
+        Check::new(
+            "t",
+            "n".into(),
+            expected,
+            got,
+            tolerance,
+            Evidence::Analytic,
+            "",
+        )
+        .pass
     }
 
     #[test]
@@ -111,9 +129,12 @@ mod tests {
 
     #[test]
     fn not_a_number_never_passes_a_comparison() {
-        for tolerance in
-            [Tolerance::Relative(1.0), Tolerance::Absolute(1.0), Tolerance::AtMost, Tolerance::AtLeast]
-        {
+        for tolerance in [
+            Tolerance::Relative(1.0),
+            Tolerance::Absolute(1.0),
+            Tolerance::AtMost,
+            Tolerance::AtLeast,
+        ] {
             assert!(!passes(1.0, f64::NAN, tolerance));
         }
     }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use std::sync::Arc;
-use tsubu_contact::{Repulsion, RepulsiveWall};
+use tsubu_contact::{PerDirection, Repulsion, RepulsiveWall};
 use tsubu_engine::{Body, Lanes, ManyKinds, NoTally, OneKind, Setup, TouchesAt, WithTally, World};
 use tsubu_integrate::Scheme;
 use tsubu_model::{Domain, Kind, Space, Still};
@@ -14,6 +14,8 @@ pub type Dry = World<Space, Still, OneKind, Repulsion, RepulsiveWall, NoTally>;
 pub type Tallied = World<Space, Still, OneKind, Repulsion, RepulsiveWall, WithTally>;
 /// Grains of several kinds.
 pub type Mixed = World<Space, Still, ManyKinds, Repulsion, RepulsiveWall, NoTally>;
+/// Grains whose damping differs along and across the contact.
+pub type Directed = World<Space, Still, OneKind, Repulsion<PerDirection>, RepulsiveWall, NoTally>;
 
 /// A scene in the making.
 #[derive(Clone)]
@@ -58,8 +60,22 @@ impl Lab {
     }
 
     /// With a plane through `point`.
-    pub fn wall(mut self, point: DVec3, outward: DVec3, restitution: Option<f64>, friction: f64) -> Self {
-        self.walls.push((point, outward, RepulsiveWall { grains: self.law, restitution, friction }));
+    pub fn wall(
+        mut self,
+        point: DVec3,
+        outward: DVec3,
+        restitution: Option<f64>,
+        friction: f64,
+    ) -> Self {
+        self.walls.push((
+            point,
+            outward,
+            RepulsiveWall {
+                grains: self.law,
+                restitution,
+                friction,
+            },
+        ));
         self
     }
 
@@ -69,7 +85,12 @@ impl Lab {
         self
     }
 
-    fn setup<K>(self, kinds: K, kind_of: impl Fn(usize) -> usize) -> Setup<Space, K, Repulsion, RepulsiveWall> {
+    fn setup<K, L>(
+        self,
+        kinds: K,
+        law: L,
+        kind_of: impl Fn(usize) -> usize,
+    ) -> Setup<Space, K, L, RepulsiveWall> {
         let body = |(number, (point, outward, law))| Body {
             name: format!("wall {number}"),
             surface: Arc::new(HalfSpace::<Space>::new(point, outward)),
@@ -79,37 +100,54 @@ impl Lab {
         };
         Setup {
             kinds,
-            law: self.law,
+            law,
             bodies: self.walls.into_iter().enumerate().map(body).collect(),
-            domain: Domain { period: self.period },
+            domain: Domain {
+                period: self.period,
+            },
             gravity: self.gravity,
             scheme: self.scheme,
             dt: self.dt,
             skin: None,
             lanes: self.lanes,
             pool: self.pool,
-            grains: self.grains.into_iter().enumerate().map(|(i, (x, v))| (x, v, kind_of(i))).collect(),
+            grains: self
+                .grains
+                .into_iter()
+                .enumerate()
+                .map(|(i, (x, v))| (x, v, kind_of(i)))
+                .collect(),
         }
     }
 
     /// The world.
     pub fn world(self) -> Dry {
-        let kind = self.kind;
-        World::new(self.setup(OneKind([kind]), |_| 0))
+        let (kind, law) = (self.kind, self.law);
+        World::new(self.setup(OneKind([kind]), law, |_| 0))
     }
 
     /// The world with its tally.
     pub fn tallied(self) -> Tallied {
-        let kind = self.kind;
-        World::new(self.setup(OneKind([kind]), |_| 0))
+        let (kind, law) = (self.kind, self.law);
+        World::new(self.setup(OneKind([kind]), law, |_| 0))
     }
 
     /// The world in which grains of even number have weight and those of odd number rise as much:
     /// a field that presses a pair together for as long as one likes.
     pub fn pressed(self) -> Mixed {
         let down = self.kind;
-        let up = Kind { weight: -down.weight, ..down };
-        World::new(self.setup(ManyKinds(vec![down, up]), |i| i % 2))
+        let up = Kind {
+            weight: -down.weight,
+            ..down
+        };
+        let law = self.law;
+        World::new(self.setup(ManyKinds(vec![down, up]), law, |i| i % 2))
+    }
+
+    /// The world with damping along the contact only.
+    pub fn without_tangential_damping(self) -> Directed {
+        let (kind, law) = (self.kind, self.law.softened(1.0, 1.0, 0.0).per_direction());
+        World::new(self.setup(OneKind([kind]), law, |_| 0))
     }
 }
 

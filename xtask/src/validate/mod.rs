@@ -68,8 +68,14 @@ fn choose(names: &[String]) -> Result<Vec<&'static Suite>, String> {
     }
     let find = |name: &String| {
         SUITES.iter().find(|s| s.name == name).ok_or_else(|| {
-            let all: Vec<String> = SUITES.iter().map(|s| format!("  {:<10} {}", s.name, s.about)).collect();
-            format!("there is no suite `{name}`; the suites are\n{}", all.join("\n"))
+            let all: Vec<String> = SUITES
+                .iter()
+                .map(|s| format!("  {:<10} {}", s.name, s.about))
+                .collect();
+            format!(
+                "there is no suite `{name}`; the suites are\n{}",
+                all.join("\n")
+            )
         })
     };
     names.iter().map(find).collect()

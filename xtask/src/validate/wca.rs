@@ -36,7 +36,10 @@ pub struct Wca {
 impl Wca {
     /// The potential of a law.
     pub fn of(law: &Repulsion) -> Self {
-        Self { epsilon: law.epsilon, sigma: law.sigma }
+        Self {
+            epsilon: law.epsilon,
+            sigma: law.sigma,
+        }
     }
 
     /// Where it ends, in m.
@@ -95,9 +98,14 @@ impl Wca {
         let f = |theta: f64| (0.5 + u * theta.sin()).powf(-7.0 / 6.0);
         let n = 200;
         let h = FRAC_PI_2 / f64::from(n);
-        let inner: f64 = (1..n).map(|i| if i % 2 == 1 { 4.0 } else { 2.0 } * f(h * f64::from(i))).sum();
+        let inner: f64 = (1..n)
+            .map(|i| if i % 2 == 1 { 4.0 } else { 2.0 } * f(h * f64::from(i)))
+            .sum();
         let integral = h / 3.0 * (f(0.0) + inner + f(FRAC_PI_2));
-        (self.sigma * (0.5 + u).powf(-1.0 / 6.0), self.sigma * u / (3.0 * speed) * integral)
+        (
+            self.sigma * (0.5 + u).powf(-1.0 / 6.0),
+            self.sigma * u / (3.0 * speed) * integral,
+        )
     }
 
     /// Restitution of a damped head-on collision that ends where the range ends: Runge–Kutta of fourth
@@ -123,7 +131,10 @@ impl Wca {
             let (v2, a2) = (v + 0.5 * h * a1, rate(x + 0.5 * h * v1, v + 0.5 * h * a1));
             let (v3, a3) = (v + 0.5 * h * a2, rate(x + 0.5 * h * v2, v + 0.5 * h * a2));
             let (v4, a4) = (v + h * a3, rate(x + h * v3, v + h * a3));
-            (x + h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4), v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4))
+            (
+                x + h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4),
+                v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4),
+            )
         };
         let h = PI * (reduced_mass / self.edge_stiffness()).sqrt() / 4000.0;
         // What ends the contact when it is used up: the overlap, or the force.
@@ -135,7 +146,11 @@ impl Wca {
                 let (mut low, mut high) = (0.0, h);
                 for _ in 0..60 {
                     let middle = 0.5 * (low + high);
-                    if left(step(state.0, state.1, middle)) > 0.0 { low = middle } else { high = middle }
+                    if left(step(state.0, state.1, middle)) > 0.0 {
+                        low = middle
+                    } else {
+                        high = middle
+                    }
                 }
                 return step(state.0, state.1, high).1 / speed;
             }
@@ -151,7 +166,10 @@ mod tests {
 
     #[test]
     fn force_and_stiffness_are_slopes_of_the_potential() {
-        let wca = Wca { epsilon: EPSILON, sigma: SIGMA };
+        let wca = Wca {
+            epsilon: EPSILON,
+            sigma: SIGMA,
+        };
         let (r, h) = (0.995 * wca.range(), 1e-9);
         let slope = (wca.potential(r + h) - wca.potential(r - h)) / (2.0 * h);
         assert!((wca.push(r) / -slope - 1.0).abs() < 1e-6);
@@ -162,7 +180,10 @@ mod tests {
 
     #[test]
     fn the_stiff_limit_is_the_linear_spring() {
-        let wca = Wca { epsilon: EPSILON, sigma: SIGMA };
+        let wca = Wca {
+            epsilon: EPSILON,
+            sigma: SIGMA,
+        };
         let mass = 0.5 * grain().mass;
         let zeta = 0.35;
         let damping = 2.0 * zeta * (wca.edge_stiffness() * mass).sqrt();

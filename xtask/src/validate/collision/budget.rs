@@ -28,7 +28,8 @@ pub fn block(counts: [usize; 3], scheme: Scheme, steps_per_period: f64) -> Lab {
         for j in 0..counts[1] {
             for i in 0..counts[0] {
                 let place = DVec3::new(i as f64 + 0.5, j as f64 + 0.5, k as f64 + 0.5) * pitch;
-                let jitter = DVec3::new(draw.next(), draw.next(), draw.next()) * (0.01 * wca.range());
+                let jitter =
+                    DVec3::new(draw.next(), draw.next(), draw.next()) * (0.01 * wca.range());
                 let velocity = DVec3::new(draw.normal(), draw.normal(), draw.normal()) * 0.02;
                 lab = lab.grain(place + jitter, velocity);
             }
@@ -47,7 +48,10 @@ fn gap(scheme: Scheme, steps_per_period: f64) -> Result<f64, String> {
     world.remove_body(1);
     world.advance((0.12 / dt) as u64);
     if !world.health().is_fine() {
-        return Err(format!("the pile of the energy budget ran away: {:?}", world.health()));
+        return Err(format!(
+            "the pile of the energy budget ran away: {:?}",
+            world.health()
+        ));
     }
     let e = world.energies();
     let lost = e.lost_damping + e.lost_wall_damping + e.lost_wall_friction + e.taken_by_removal;
@@ -57,16 +61,31 @@ fn gap(scheme: Scheme, steps_per_period: f64) -> Result<f64, String> {
 /// The checks.
 pub fn run(report: &mut Report) -> Result<(), String> {
     let steps_per_period = [20.0, 40.0, 80.0];
-    let mut figure =
-        Figure::new("Energy budget of a collapsing pile", "steps per period (–)", "|missing| over lost (–)").log_x().log_y();
-    for scheme in [Scheme::SymplecticEuler, Scheme::VerletOld, Scheme::VerletAveraged { sweeps: 4 }] {
+    let mut figure = Figure::new(
+        "Energy budget of a collapsing pile",
+        "steps per period (–)",
+        "|missing| over lost (–)",
+    )
+    .log_x()
+    .log_y();
+    for scheme in [
+        Scheme::SymplecticEuler,
+        Scheme::VerletOld,
+        Scheme::VerletAveraged { sweeps: 4 },
+    ] {
         let mut gaps = Vec::new();
         for n in steps_per_period {
             gaps.push(gap(scheme, n)?.abs());
         }
         let scheme_name = name(scheme);
         let what = format!("energy missing over energy lost, 300 grains, T/20, {scheme_name}");
-        report.check(what, 0.01, gaps[0], Tolerance::AtMost, "1 % asked by the issue");
+        report.check(
+            what,
+            0.01,
+            gaps[0],
+            Tolerance::AtMost,
+            "1 % asked by the issue",
+        );
         report.check(
             format!("  the same at T/80 over T/20, {scheme_name}"),
             0.5,
@@ -74,7 +93,9 @@ pub fn run(report: &mut Report) -> Result<(), String> {
             Tolerance::AtMost,
             "closer with Δt: first order at worst gives ¼; the collapse is chaotic, so ½",
         );
-        figure = figure.points(&scheme_name, &steps_per_period, &gaps, None).line(&scheme_name, &steps_per_period, &gaps);
+        figure = figure
+            .points(&scheme_name, &steps_per_period, &gaps, None)
+            .line(&scheme_name, &steps_per_period, &gaps);
     }
     report.figure("collision_budget", figure)
 }

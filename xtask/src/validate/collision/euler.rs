@@ -17,10 +17,17 @@ fn growth_per_step(steps_per_period: f64) -> f64 {
     let load = 1e-5 * wca.range() * wca.edge_stiffness();
     let rest = wca.at_rest_under(load);
     let stiff = wca.stiffness(rest);
-    let mut lab = Lab::new(grain(), coke(0.0), Scheme::ExplicitEuler, dt).wall(DVec3::ZERO, DVec3::Z, None, 0.0);
+    let mut lab = Lab::new(grain(), coke(0.0), Scheme::ExplicitEuler, dt).wall(
+        DVec3::ZERO,
+        DVec3::Z,
+        None,
+        0.0,
+    );
     lab.gravity = DVec3::Z * (-load / mass);
     let speed = 1e-9 * wca.range() * (stiff / mass).sqrt();
-    let mut world = lab.grain(DVec3::Z * (rest - grain().radius), DVec3::Z * speed).world();
+    let mut world = lab
+        .grain(DVec3::Z * (rest - grain().radius), DVec3::Z * speed)
+        .world();
     let energy = |x: f64, v: f64| stiff * (x + grain().radius - rest).powi(2) + mass * v * v;
     let before = energy(world.position(0).z, world.velocity(0).z);
     let steps = 100;
@@ -43,11 +50,19 @@ pub fn run(report: &mut Report) {
     }
     // K < C and C < 2 + K/2. Above the first the growth per step is only εC/2, so ζ is not small here.
     for zeta in [0.4, 0.7, 1.5] {
-        let case = Case { scheme: Scheme::ExplicitEuler, arrangement: Arrangement::Column(1), zeta };
-        let dt = case.claimed(|k, c| case.scheme.limit().used(k, c)).unwrap_or(f64::NAN);
+        let case = Case {
+            scheme: Scheme::ExplicitEuler,
+            arrangement: Arrangement::Column(1),
+            zeta,
+        };
+        let dt = case
+            .claimed(|k, c| case.scheme.limit().used(k, c))
+            .unwrap_or(f64::NAN);
         let (k, c) = case.numbers(dt);
         report.check(
-            format!("limit at a wall, ExplicitEuler, K = {k:.3}, C = {c:.3}: Δt found over claimed"),
+            format!(
+                "limit at a wall, ExplicitEuler, K = {k:.3}, C = {c:.3}: Δt found over claimed"
+            ),
             1.0,
             case.found(dt),
             Tolerance::Absolute(0.01),

@@ -3,8 +3,8 @@
 mod bits;
 mod budget;
 mod euler;
-mod order;
-mod pair;
+pub mod order;
+pub mod pair;
 mod row;
 mod solves;
 mod stability;

@@ -7,7 +7,7 @@ use crate::validate::wca::{GAMMA, Wca, coke, grain};
 use glam::DVec3;
 use tsubu_contact::Repulsion;
 use tsubu_integrate::Scheme;
-use tsubu_model::View;
+use tsubu_model::{Kind, View};
 
 /// Speed in m/s; r_min/r₀; t_c in s without damping; e with γ = 0.1257 kg/s: the printed table of the
 /// theory note, digits beyond which it says nothing.
@@ -29,16 +29,29 @@ pub struct Rebound {
 }
 
 /// Two grains that meet at `speed` m/s; the first touch falls `phase` of a step before a sample.
-pub fn head_on(law: &Repulsion, scheme: Scheme, dt: f64, speed: f64, phase: f64) -> Option<Rebound> {
+pub fn head_on(
+    kind: Kind,
+    law: &Repulsion,
+    scheme: Scheme,
+    dt: f64,
+    speed: f64,
+    phase: f64,
+) -> Option<Rebound> {
     let range = Wca::of(law).range();
     let start = 0.5 * (range + speed * dt * (3.0 - phase));
     let (x, v) = (DVec3::X * start, DVec3::X * (-0.5 * speed));
-    let mut world = Lab::new(grain(), *law, scheme, dt).grain(x, v).grain(-x, -v).world();
+    let mut world = Lab::new(kind, *law, scheme, dt)
+        .grain(x, v)
+        .grain(-x, -v)
+        .world();
     // Identity 0 is the grain on the right, whatever the order in memory.
     let gap = |world: &Dry| -> (f64, f64) {
         let right = usize::from(world.identity(0) != 0);
         let apart = world.position(right) - world.position(1 - right);
-        (apart.x, (world.velocity(right) - world.velocity(1 - right)).x)
+        (
+            apart.x,
+            (world.velocity(right) - world.velocity(1 - right)).x,
+        )
     };
     let (mut before, mut now) = (f64::INFINITY, gap(&world).0);
     let (mut closest, mut touch) = (now, None);
@@ -51,12 +64,20 @@ pub fn head_on(law: &Repulsion, scheme: Scheme, dt: f64, speed: f64, phase: f64)
         }
         if let (Some(touch), true) = (touch, next >= range) {
             let duration = (step as f64 + crossing - touch) * dt;
-            return Some(Rebound { restitution: rate / speed, closest, duration });
+            return Some(Rebound {
+                restitution: rate / speed,
+                closest,
+                duration,
+            });
         }
         if now <= before && now <= next && before.is_finite() {
             let (down, up) = (before - now, next - now);
             let bend = down + up;
-            let lowest = if bend > 0.0 { now - (down - up).powi(2) / (8.0 * bend) } else { now };
+            let lowest = if bend > 0.0 {
+                now - (down - up).powi(2) / (8.0 * bend)
+            } else {
+                now
+            };
             closest = closest.min(lowest);
         }
         (before, now) = (now, next);
@@ -77,8 +98,10 @@ pub fn run(report: &mut Report) {
         let dt = wca.period(mass) / steps_per_period;
         let (r_min, t_c) = wca.undamped_collision(mass, speed);
         let range = wca.range();
-        let free = head_on(&coke(0.0), scheme, dt, speed, 0.37);
-        let (closest, duration, e) = free.map_or([f64::NAN; 3].into(), |f| (f.closest, f.duration, f.restitution));
+        let free = head_on(grain(), &coke(0.0), scheme, dt, speed, 0.37);
+        let (closest, duration, e) = free.map_or([f64::NAN; 3].into(), |f| {
+            (f.closest, f.duration, f.restitution)
+        });
         let at = format!("{speed} m/s");
         report.check(
             format!("deepest overlap, {at} (m), quadrature"),
@@ -94,7 +117,13 @@ pub fn run(report: &mut Report) {
             Tolerance::Absolute(5e-9),
             "half a unit of the last printed digit",
         );
-        report.check(format!("time in contact, {at} (s), quadrature"), t_c, duration, tolerance, "asked by the issue");
+        report.check(
+            format!("time in contact, {at} (s), quadrature"),
+            t_c,
+            duration,
+            tolerance,
+            "asked by the issue",
+        );
         report.check(
             format!("time in contact, {at} (s), printed table"),
             table_duration,
@@ -109,9 +138,16 @@ pub fn run(report: &mut Report) {
             Tolerance::Absolute(1e-6),
             "the spring begins with a kink: an energy of order (2π/20000)² = 1e-7 is lost or won at it",
         );
-        let damped = head_on(&coke(GAMMA), scheme, dt, speed, 0.37).map_or(f64::NAN, |r| r.restitution);
+        let damped = head_on(grain(), &coke(GAMMA), scheme, dt, speed, 0.37)
+            .map_or(f64::NAN, |r| r.restitution);
         let exact = wca.restitution(mass, GAMMA, speed);
-        report.check(format!("restitution, {at}, fine integration"), exact, damped, tolerance, "asked by the issue");
+        report.check(
+            format!("restitution, {at}, fine integration"),
+            exact,
+            damped,
+            tolerance,
+            "asked by the issue",
+        );
         report.check(
             format!("restitution, {at}, printed table"),
             table_e,

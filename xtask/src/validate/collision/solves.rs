@@ -21,11 +21,28 @@ fn used_as_built(scheme: Scheme, k: f64, c: f64) -> f64 {
 pub fn run(report: &mut Report) {
     let averaged = |sweeps| Scheme::VerletAveraged { sweeps };
     let implicit = |sweeps| Scheme::DashpotImplicit { sweeps };
-    for scheme in [averaged(1), averaged(2), averaged(4), implicit(1), implicit(2), implicit(4)] {
+    for scheme in [
+        averaged(1),
+        averaged(2),
+        averaged(4),
+        implicit(1),
+        implicit(2),
+        implicit(4),
+    ] {
         for zeta in [0.3, 1.0] {
-            limit_as_built(report, Case { scheme, arrangement: Arrangement::Pair, zeta });
+            limit_as_built(
+                report,
+                Case {
+                    scheme,
+                    arrangement: Arrangement::Pair,
+                    zeta,
+                },
+            );
         }
-        for (arrangement, words) in [(Arrangement::Pair, "Pair"), (Arrangement::Column(8), "Column(8)")] {
+        for (arrangement, words) in [
+            (Arrangement::Pair, "Pair"),
+            (Arrangement::Column(8), "Column(8)"),
+        ] {
             exact_solve(report, scheme, arrangement, words);
         }
     }
@@ -38,7 +55,12 @@ fn limit_as_built(report: &mut Report, case: Case) {
     if let Some(dt) = case.claimed(|k, c| used_as_built(scheme, 2.0 * k, 2.0 * c)) {
         let (k, c) = case.numbers(dt);
         report.check(
-            format!("limit of Pair as built, {}, K = {:.3}, C = {:.3}: Δt found over claimed", name(scheme), 2.0 * k, 2.0 * c),
+            format!(
+                "limit of Pair as built, {}, K = {:.3}, C = {:.3}: Δt found over claimed",
+                name(scheme),
+                2.0 * k,
+                2.0 * c
+            ),
             1.0,
             case.found(dt),
             Tolerance::Absolute(0.01),
@@ -49,7 +71,11 @@ fn limit_as_built(report: &mut Report, case: Case) {
         let dt = [1.0, 3.0, 10.0].map(|turn| turn / Case::frequency());
         let grown = dt.into_iter().filter(|&dt| case.grows(dt)).count();
         report.check(
-            format!("no limit of Pair as built, {}, ζ = {}: steps of 1, 3, 10 √(m/k) that grow", name(scheme), case.zeta),
+            format!(
+                "no limit of Pair as built, {}, ζ = {}: steps of 1, 3, 10 √(m/k) that grow",
+                name(scheme),
+                case.zeta
+            ),
             0.0,
             grown as f64,
             Tolerance::AtMost,
@@ -62,14 +88,27 @@ fn limit_as_built(report: &mut Report, case: Case) {
 fn exact_solve(report: &mut Report, scheme: Scheme, arrangement: Arrangement, words: &str) {
     let mut worst = f64::INFINITY;
     for zeta in [0.1, 0.3, 1.0] {
-        let case = Case { scheme, arrangement, zeta };
-        let dt = case.claimed(|k, c| scheme.limit().used_by_packing(k, c, arrangement.packing())).unwrap_or(f64::NAN);
+        let case = Case {
+            scheme,
+            arrangement,
+            zeta,
+        };
+        let dt = case
+            .claimed(|k, c| scheme.limit().used_by_packing(k, c, arrangement.packing()))
+            .unwrap_or(f64::NAN);
         let shares = [0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99];
-        let first = shares.into_iter().find(|share| case.grows(share * dt)).unwrap_or(1.0);
+        let first = shares
+            .into_iter()
+            .find(|share| case.grows(share * dt))
+            .unwrap_or(1.0);
         worst = worst.min(first);
     }
     let even = scheme.sweeps() % 2 == 0;
-    let tolerance = if even { Tolerance::AtLeast } else { Tolerance::Information };
+    let tolerance = if even {
+        Tolerance::AtLeast
+    } else {
+        Tolerance::Information
+    };
     report.check(
         format!("{words}, {}: share of the exact solve's limit without growth (ζ 0.1, 0.3, 1)", name(scheme)),
         1.0,
@@ -87,9 +126,15 @@ fn residual(report: &mut Report) {
     for scheme in [1, 2, 4].map(|sweeps| Scheme::VerletAveraged { sweeps }) {
         let half = DVec3::X * (0.5 * 0.9999 * wca.range());
         let v = DVec3::X * 0.5;
-        let mut world = Lab::new(grain(), coke(GAMMA), scheme, dt).grain(half, -v).grain(-half, v).world();
+        let mut world = Lab::new(grain(), coke(GAMMA), scheme, dt)
+            .grain(half, -v)
+            .grain(-half, v)
+            .world();
         world.advance(1);
-        let name = format!("last change of a velocity over the speed, coke at 20 steps per period, {}", name(scheme));
-        report.tell(name, 0.0, world.solve_residual() / v.x, "residual of the solve");
+        let name = format!(
+            "last change of a velocity over the speed, coke at 20 steps per period, {}",
+            name(scheme)
+        );
+        report.tell(name, world.solve_residual() / v.x, "residual of the solve");
     }
 }
