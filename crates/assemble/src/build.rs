@@ -6,7 +6,9 @@ use crate::plan::Plan;
 use crate::simulation::{Release, Running, Simulation};
 use crate::start;
 use std::sync::Arc;
-use tsubu_engine::{Body, Lanes, Layout, NoTally, OneKind, Setup, Tally, TouchesAt, WithTally, World};
+use tsubu_engine::{
+    Body, Lanes, Layout, NoTally, OneKind, Setup, Tally, TouchesAt, WithTally, World,
+};
 use tsubu_measure::{Balance, Energy, Heap, HeapOptions, Slices, Structure};
 use tsubu_model::{ContactLaw, Dim, Domain, Gate, Observer, Plane, Space, Still, Surface, Vector};
 use tsubu_scene as scene;
@@ -44,11 +46,17 @@ pub fn build(checked: &Checked, choices: &Choices) -> Result<Built, SceneError> 
     }
 }
 
-fn in_dimension<D: Layout + Slices>(checked: &Checked, choices: &Choices) -> Result<Built, SceneError> {
+fn in_dimension<D: Layout + Slices>(
+    checked: &Checked,
+    choices: &Choices,
+) -> Result<Built, SceneError> {
     let constants = Constants::of(checked)?;
     let domain = domain_of::<D>(checked, &constants)?;
     let grains = start::grains::<D>(checked, &constants, &domain)?;
-    let threads = choices.threads.unwrap_or_else(|| as_many_as_pay(grains.len())).max(1);
+    let threads = choices
+        .threads
+        .unwrap_or_else(|| as_many_as_pay(grains.len()))
+        .max(1);
     let lanes = choices.lanes.unwrap_or_else(Lanes::best);
     let plan = Plan::of(checked, &constants, grains.len(), threads, lanes.name());
     if !choices.allow_unstable {
@@ -57,18 +65,32 @@ fn in_dimension<D: Layout + Slices>(checked: &Checked, choices: &Choices) -> Res
     let pool = if threads > 1 {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         Some(Arc::new(pool.map_err(|e| {
-            checked.problem("", format!("{threads} threads could not be started: {e}"), "ask for fewer with --threads")
+            checked.problem(
+                "",
+                format!("{threads} threads could not be started: {e}"),
+                "ask for fewer with --threads",
+            )
         })?))
     } else {
         None
     };
-    let parts = Parts { checked, constants: &constants, domain, grains, lanes, pool };
+    let parts = Parts {
+        checked,
+        constants: &constants,
+        domain,
+        grains,
+        lanes,
+        pool,
+    };
     let energies = checked.scene.output.energies;
+    let law = constants.law;
+    let share = checked.scene.still.map_or(1.0, |s| s.damping);
+    let settling = law.softened(1.0, share, share);
     let simulation = match (constants.isotropic, energies) {
-        (true, false) => parts.run::<_, NoTally>(constants.law),
-        (true, true) => parts.run::<_, WithTally>(constants.law),
-        (false, false) => parts.run::<_, NoTally>(constants.law.per_direction()),
-        (false, true) => parts.run::<_, WithTally>(constants.law.per_direction()),
+        (true, false) => parts.run::<_, NoTally>(law, settling),
+        (true, true) => parts.run::<_, WithTally>(law, settling),
+        (false, false) => parts.run::<_, NoTally>(law.per_direction(), settling.per_direction()),
+        (false, true) => parts.run::<_, WithTally>(law.per_direction(), settling.per_direction()),
     };
     Ok(Built { simulation, plan })
 }
@@ -84,7 +106,12 @@ struct Parts<'a, D: Layout> {
 }
 
 impl<D: Layout + Slices> Parts<'_, D> {
-    fn run<L: ContactLaw<D, Still> + 'static, T: Tally>(self, law: L) -> Box<dyn Simulation> {
+    /// `settling` is the law until the release, `law` from then on; without a release `law` throughout.
+    fn run<L, T>(self, law: L, settling: L) -> Box<dyn Simulation>
+    where
+        L: ContactLaw<D, Still> + 'static,
+        T: Tally,
+    {
         let scene = &self.checked.scene;
         let surfaces: Vec<Arc<dyn Surface<D>>> = scene.walls.iter().map(surface_of::<D>).collect();
         let bodies = scene
@@ -103,6 +130,12 @@ impl<D: Layout + Slices> Parts<'_, D> {
                 removed_at: None,
             })
             .collect();
+        let release = release_of(scene);
+        let (law, law_after) = if release.is_some() {
+            (settling, Some(law))
+        } else {
+            (law, None)
+        };
         let world = World::new(Setup {
             kinds: OneKind([self.constants.kind]),
             law,
@@ -111,21 +144,28 @@ impl<D: Layout + Slices> Parts<'_, D> {
             gravity: D::V::from_axes(|a| if a == D::UP { -scene.gravity } else { 0.0 }),
             scheme: self.constants.scheme,
             dt: self.constants.dt,
-            skin: scene.skin.map(|share| share * self.constants.kind.diameter()),
+            skin: scene
+                .skin
+                .map(|share| share * self.constants.kind.diameter()),
             lanes: self.lanes,
             pool: self.pool,
             grains: self.grains,
         });
         let removal = WallRemoval::of(scene);
-        let gates: Vec<Box<dyn Gate<D, Still>>> = if removal.is_needed() { vec![Box::new(removal)] } else { Vec::new() };
+        let gates: Vec<Box<dyn Gate<D, Still>>> = if removal.is_needed() {
+            vec![Box::new(removal)]
+        } else {
+            Vec::new()
+        };
         Box::new(Running::<D, L, T> {
             observers: observers_of(scene, self.constants, &self.domain),
             surfaces,
             gates,
             gate_every: gate_every(scene, self.constants.dt),
             end: scene.time.end,
-            release: release_of(scene),
+            release,
             trouble: None,
+            law_after,
             world,
         })
     }
@@ -133,7 +173,10 @@ impl<D: Layout + Slices> Parts<'_, D> {
 
 fn surface_of<D: Dim>(wall: &scene::Wall) -> Arc<dyn Surface<D>> {
     let Shape::HalfSpace { point, outward } = &wall.shape;
-    Arc::new(HalfSpace::<D>::new(D::from_space(*point), D::from_space(*outward)))
+    Arc::new(HalfSpace::<D>::new(
+        D::from_space(*point),
+        D::from_space(*outward),
+    ))
 }
 
 fn domain_of<D: Dim>(checked: &Checked, constants: &Constants) -> Result<Domain<D>, SceneError> {
@@ -143,28 +186,55 @@ fn domain_of<D: Dim>(checked: &Checked, constants: &Constants) -> Result<Domain<
         Axis::Open => f64::INFINITY,
     };
     // A grain must not see itself or one partner twice.
-    for (name, axis) in [("domain.x", axes.x), ("domain.y", axes.y), ("domain.z", axes.z)] {
+    for (name, axis) in [
+        ("domain.x", axes.x),
+        ("domain.y", axes.y),
+        ("domain.z", axes.z),
+    ] {
         if length(axis) < 3.0 * constants.kind.diameter() {
-            let what = format!("the period is {:.2} grain diameters; it must be at least 3, or a grain meets itself", length(axis) / constants.kind.diameter());
+            let what = format!(
+                "the period is {:.2} grain diameters; it must be at least 3, or a grain meets itself",
+                length(axis) / constants.kind.diameter()
+            );
             return Err(checked.problem(name, what, "lengthen the period or lower grains.coarse"));
         }
     }
-    Ok(Domain { period: D::from_space(glam::DVec3::new(length(axes.x), length(axes.y), length(axes.z))) })
+    Ok(Domain {
+        period: D::from_space(glam::DVec3::new(
+            length(axes.x),
+            length(axes.y),
+            length(axes.z),
+        )),
+    })
 }
 
 fn release_of(scene: &scene::Scene) -> Option<Release> {
-    let body = scene.walls.iter().position(|w| w.removed == Removal::WhenStill)?;
+    let body = scene
+        .walls
+        .iter()
+        .position(|w| w.removed == Removal::WhenStill)?;
     let still = scene.still?;
-    Some(Release { body, at_most: still.at_most, asked: still.kinetic_energy, at_step: None })
+    Some(Release {
+        body,
+        at_most: still.at_most,
+        asked: still.kinetic_energy,
+        at_step: None,
+    })
 }
 
 /// A tenth of the time for which the grains must be still, or a thousand steps.
 fn gate_every(scene: &scene::Scene, dt: f64) -> u64 {
-    let still = scene.still.map_or(u64::MAX, |s| (0.1 * s.for_at_least / dt) as u64);
+    let still = scene
+        .still
+        .map_or(u64::MAX, |s| (0.1 * s.for_at_least / dt) as u64);
     still.clamp(1, 1000)
 }
 
-fn observers_of<D: Slices>(scene: &scene::Scene, constants: &Constants, domain: &Domain<D>) -> Vec<Box<dyn Observer<D, Still>>> {
+fn observers_of<D: Slices>(
+    scene: &scene::Scene,
+    constants: &Constants,
+    domain: &Domain<D>,
+) -> Vec<Box<dyn Observer<D, Still>>> {
     let mut observers: Vec<Box<dyn Observer<D, Still>>> = Vec::new();
     let depth = (D::V::AXES == 3 && domain.is_periodic(1)).then(|| domain.period.axis(1));
     let removed = scene.walls.iter().find(|w| w.removed != Removal::Never);

@@ -1,7 +1,9 @@
 //! From the scene's grains to the constants that run: softened, then coarsened, then the step.
 
 use std::f64::consts::PI;
-use tsubu_coarsen::{CoarseRule, Gap, Level, RadlRestitution, Renormalised, SakaiKoshizuka, check_gaps, coarsen};
+use tsubu_coarsen::{
+    CoarseRule, Gap, Level, RadlRestitution, Renormalised, SakaiKoshizuka, check_gaps, coarsen,
+};
 use tsubu_contact::{Repulsion, RepulsiveWall, restitution};
 use tsubu_integrate::Scheme;
 use tsubu_model::Kind;
@@ -43,7 +45,11 @@ impl Constants {
         let level = Level::new(grains.coarse);
         let rule = rule_of(checked, &law, &fine)?;
         let refuse = |trouble: tsubu_coarsen::TooCoarse| {
-            checked.problem("grains.coarse", trouble.to_string(), "lower grains.coarse, or choose another grains.coarse_rule")
+            checked.problem(
+                "grains.coarse",
+                trouble.to_string(),
+                "lower grains.coarse, or choose another grains.coarse_rule",
+            )
         };
         let kind = coarsen(&*rule, &fine, level).map_err(refuse)?;
         let coarse = coarsen(&*rule, &law, level).map_err(refuse)?;
@@ -51,11 +57,20 @@ impl Constants {
         let walls = scene
             .walls
             .iter()
-            .map(|w| RepulsiveWall { grains: coarse, restitution: w.restitution, friction: w.friction.unwrap_or(0.0) })
+            .map(|w| RepulsiveWall {
+                grains: coarse,
+                restitution: w.restitution,
+                friction: w.friction.unwrap_or(0.0),
+            })
             .collect();
         if grains.coarse > 0 {
-            check_gaps(&gaps(scene), grains.diameter, level)
-                .map_err(|narrow| checked.problem("grains.coarse", narrow.to_string(), "lower grains.coarse or widen the gap"))?;
+            check_gaps(&gaps(scene), grains.diameter, level).map_err(|narrow| {
+                checked.problem(
+                    "grains.coarse",
+                    narrow.to_string(),
+                    "lower grains.coarse or widen the gap",
+                )
+            })?;
         }
         let period = 2.0 * PI * (0.5 * kind.mass / coarse.stiffness()).sqrt();
         let dt = match scene.time.step {
@@ -100,10 +115,16 @@ fn softened(grains: &scene::Grains) -> Repulsion {
         scene::Damping::Parts { normal, tangential } => (normal, tangential),
     };
     let law = match *stiffness {
-        scene::Stiffness::YoungModulus(young) => {
-            Repulsion::from_young_modulus(young, Repulsion::sigma_for_diameter(grains.diameter), normal, tangential, grains.diameter)
+        scene::Stiffness::YoungModulus(young) => Repulsion::from_young_modulus(
+            young,
+            Repulsion::sigma_for_diameter(grains.diameter),
+            normal,
+            tangential,
+            grains.diameter,
+        ),
+        scene::Stiffness::Energy { epsilon, sigma } => {
+            Repulsion::new(epsilon, sigma, normal, tangential, grains.diameter)
         }
-        scene::Stiffness::Energy { epsilon, sigma } => Repulsion::new(epsilon, sigma, normal, tangential, grains.diameter),
     };
     let root = 1.0 / grains.soften.sqrt();
     let (n, t) = match grains.softened_damping {
@@ -114,14 +135,23 @@ fn softened(grains: &scene::Grains) -> Repulsion {
     law.softened(grains.soften, n, t)
 }
 
-fn rule_of(checked: &Checked, law: &Repulsion, kind: &Kind) -> Result<Box<dyn CoarseRule>, SceneError> {
+fn rule_of(
+    checked: &Checked,
+    law: &Repulsion,
+    kind: &Kind,
+) -> Result<Box<dyn CoarseRule>, SceneError> {
     Ok(match checked.scene.grains.coarse_rule {
         scene::CoarseRule::Renormalised => Box::new(Renormalised),
         scene::CoarseRule::SakaiKoshizuka => Box::new(SakaiKoshizuka),
         scene::CoarseRule::RadlRestitution => {
             let e = restitution::at_zero_overlap(law.damping_ratio(0.5 * kind.mass));
-            let rule = RadlRestitution::new(e)
-                .map_err(|bad| checked.problem("grains.coarse_rule", bad.to_string(), "choose Renormalised, or lower the damping"))?;
+            let rule = RadlRestitution::new(e).map_err(|bad| {
+                checked.problem(
+                    "grains.coarse_rule",
+                    bad.to_string(),
+                    "choose Renormalised, or lower the damping",
+                )
+            })?;
             Box::new(rule)
         }
     })
@@ -130,16 +160,32 @@ fn rule_of(checked: &Checked, law: &Repulsion, kind: &Kind) -> Result<Box<dyn Co
 /// Gaps that a grain has to fit: periodic lengths and the room between facing walls.
 fn gaps(scene: &scene::Scene) -> Vec<Gap> {
     let mut gaps = Vec::new();
-    for (name, axis) in [("domain.x", scene.domain.x), ("domain.y", scene.domain.y), ("domain.z", scene.domain.z)] {
+    for (name, axis) in [
+        ("domain.x", scene.domain.x),
+        ("domain.y", scene.domain.y),
+        ("domain.z", scene.domain.z),
+    ] {
         if let scene::Axis::Periodic(length) = axis {
             gaps.push(Gap::new(name, length));
         }
     }
     for (i, a) in scene.walls.iter().enumerate() {
         for b in &scene.walls[i + 1..] {
-            let (scene::Shape::HalfSpace { point: p, outward: n }, scene::Shape::HalfSpace { point: q, outward: m }) = (&a.shape, &b.shape);
+            let (
+                scene::Shape::HalfSpace {
+                    point: p,
+                    outward: n,
+                },
+                scene::Shape::HalfSpace {
+                    point: q,
+                    outward: m,
+                },
+            ) = (&a.shape, &b.shape);
             if n.dot(*m) < -1.0 + 1e-9 && (*q - *p).dot(*n) > 0.0 {
-                gaps.push(Gap::new(format!("between the walls `{}` and `{}`", a.name, b.name), (*q - *p).dot(*n)));
+                gaps.push(Gap::new(
+                    format!("between the walls `{}` and `{}`", a.name, b.name),
+                    (*q - *p).dot(*n),
+                ));
             }
         }
     }

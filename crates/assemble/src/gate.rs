@@ -12,7 +12,11 @@ pub(crate) struct WallRemoval {
 
 impl WallRemoval {
     pub fn of(scene: &Scene) -> Self {
-        Self { when: scene.walls.iter().map(|w| w.removed).collect(), still: scene.still, calm_since: None }
+        Self {
+            when: scene.walls.iter().map(|w| w.removed).collect(),
+            still: scene.still,
+            calm_since: None,
+        }
     }
 
     /// True if some wall is still waiting at `time` for something other than never.
@@ -37,7 +41,9 @@ impl<D: Dim, S: SpinState> Gate<D, S> for WallRemoval {
     fn decide(&mut self, view: &dyn View<D, S>, out: &mut Vec<Change>) {
         let now = view.time();
         let bodies = view.bodies();
-        let waits = |k: usize, what: fn(&Removal) -> bool| bodies[k].removed_at.is_none() && what(&self.when[k]);
+        let waits = |k: usize, what: fn(&Removal) -> bool| {
+            bodies[k].removed_at.is_none() && what(&self.when[k])
+        };
         for k in 0..bodies.len() {
             if let Removal::At(time) = self.when[k]
                 && now >= time
@@ -46,8 +52,12 @@ impl<D: Dim, S: SpinState> Gate<D, S> for WallRemoval {
                 out.push(Change::RemoveBody(k));
             }
         }
-        let waiting: Vec<usize> = (0..bodies.len()).filter(|&k| waits(k, |w| *w == Removal::WhenStill)).collect();
-        let Some(still) = self.still.filter(|_| !waiting.is_empty()) else { return };
+        let waiting: Vec<usize> = (0..bodies.len())
+            .filter(|&k| waits(k, |w| *w == Removal::WhenStill))
+            .collect();
+        let Some(still) = self.still.filter(|_| !waiting.is_empty()) else {
+            return;
+        };
         if agitation(view) >= still.kinetic_energy {
             self.calm_since = None;
             return;

@@ -29,14 +29,14 @@
 //! # Ok::<(), tsubu_scene::SceneError>(())
 //! ```
 
+mod build;
 mod constants;
-mod random;
-mod start;
 mod fill;
 mod gate;
 mod plan;
+mod random;
 mod simulation;
-mod build;
+mod start;
 
 pub use build::{Built, Choices, build};
 pub use constants::Constants;

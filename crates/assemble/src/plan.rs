@@ -36,7 +36,13 @@ pub struct Plan {
 }
 
 impl Plan {
-    pub(crate) fn of(checked: &Checked, constants: &Constants, grains: usize, threads: usize, lanes: &'static str) -> Self {
+    pub(crate) fn of(
+        checked: &Checked,
+        constants: &Constants,
+        grains: usize,
+        threads: usize,
+        lanes: &'static str,
+    ) -> Self {
         let scene = &checked.scene;
         Self {
             grains,
@@ -60,14 +66,20 @@ impl Plan {
 
     /// Refuses a step over its limit.
     pub(crate) fn refuse_unstable(&self, checked: &Checked) -> Result<(), SceneError> {
-        let Some(worst) = self.tightest().filter(|l| !(l.used < 1.0)) else { return Ok(()) };
+        let Some(worst) = self.tightest().filter(|l| !(l.used < 1.0)) else {
+            return Ok(());
+        };
         let scheme = self.constants.scheme;
         let what = format!(
             "the step of {:.3e} s is over its limit for {}: {} uses {} of what {} bears",
             self.constants.dt,
             worst.name,
             scheme.name(),
-            if worst.used.is_finite() { format!("{:.0} %", 100.0 * worst.used) } else { "more than all".into() },
+            if worst.used.is_finite() {
+                format!("{:.0} %", 100.0 * worst.used)
+            } else {
+                "more than all".into()
+            },
             scheme.name(),
         );
         let remedy = match self.stable_step() {
@@ -75,7 +87,10 @@ impl Plan {
                 "use a step below {dt:.3e} s (time.step: PerPeriod({:.0}) or more), another integrator, or --allow-unstable to see it fail",
                 (self.constants.period / dt).ceil()
             ),
-            None => format!("{} has no stable step here: use another integrator, or --allow-unstable to see it fail", scheme.name()),
+            None => format!(
+                "{} has no stable step here: use another integrator, or --allow-unstable to see it fail",
+                scheme.name()
+            ),
         };
         Err(checked.problem("time.step", what, remedy))
     }
@@ -106,18 +121,37 @@ fn shares(constants: &Constants) -> Vec<LimitLine> {
     let limit: Limit = constants.scheme.limit();
     let (k, c) = (constants.k(), constants.c());
     let mut lines = vec![
-        LimitLine { name: "a pair of grains".into(), used: limit.used_by_packing(k, c, Packing::Pair) },
-        LimitLine { name: "a column of ten".into(), used: limit.used_by_packing(k, c, Packing::Column(10)) },
-        LimitLine { name: "the densest packing, twelve contacts a grain".into(), used: limit.used_by_packing(k, c, Packing::FaceCentredCubic) },
+        LimitLine {
+            name: "a pair of grains".into(),
+            used: limit.used_by_packing(k, c, Packing::Pair),
+        },
+        LimitLine {
+            name: "a column of ten".into(),
+            used: limit.used_by_packing(k, c, Packing::Column(10)),
+        },
+        LimitLine {
+            name: "the densest packing, twelve contacts a grain".into(),
+            used: limit.used_by_packing(k, c, Packing::FaceCentredCubic),
+        },
     ];
     let hardest = constants
         .walls
         .iter()
-        .map(|w| <tsubu_contact::RepulsiveWall as ContactLaw<Space, Still>>::pair(w, &constants.kind, &Kind::immovable()).damping)
+        .map(|w| {
+            <tsubu_contact::RepulsiveWall as ContactLaw<Space, Still>>::pair(
+                w,
+                &constants.kind,
+                &Kind::immovable(),
+            )
+            .damping
+        })
         .fold(f64::NEG_INFINITY, f64::max);
     if hardest >= 0.0 {
         let c = hardest * constants.dt / constants.kind.mass;
-        lines.push(LimitLine { name: "a grain at a wall".into(), used: limit.used_by_packing(k, c, Packing::OneWallContact) });
+        lines.push(LimitLine {
+            name: "a grain at a wall".into(),
+            used: limit.used_by_packing(k, c, Packing::OneWallContact),
+        });
     }
     lines
 }
@@ -127,14 +161,19 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
     let mut lines = vec![
         match scene.space {
             tsubu_scene::Space::Space => "space: three coordinates, z up".to_owned(),
-            tsubu_scene::Space::Plane => "plane: two coordinates, x and z, spheres one grain deep".to_owned(),
+            tsubu_scene::Space::Plane => {
+                "plane: two coordinates, x and z, spheres one grain deep".to_owned()
+            }
         },
         format!(
             "grains: one kind, d = {:.4} mm, m = {:.4e} kg{}",
             constants.kind.diameter() * 1e3,
             constants.kind.mass,
             if scene.grains.coarse > 0 {
-                format!(" (n = {}, lambda = {}, rule {})", scene.grains.coarse, constants.lambda, constants.rule)
+                format!(
+                    " (n = {}, lambda = {}, rule {})",
+                    scene.grains.coarse, constants.lambda, constants.rule
+                )
             } else {
                 String::new()
             }
@@ -143,21 +182,34 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
             "law Repulsion: k = {:.4e} N/m, {}; restitution of a pair {:.3}",
             law.stiffness(),
             if constants.isotropic {
-                format!("damping {:.4} kg/s in every direction (no projection, no root)", law.normal_damping)
+                format!(
+                    "damping {:.4} kg/s in every direction (no projection, no root)",
+                    law.normal_damping
+                )
             } else {
-                format!("damping {:.4} kg/s along, {:.4} kg/s across the contact", law.normal_damping, law.tangential_damping)
+                format!(
+                    "damping {:.4} kg/s along, {:.4} kg/s across the contact",
+                    law.normal_damping, law.tangential_damping
+                )
             },
-            tsubu_contact::restitution::at_zero_overlap(law.damping_ratio(0.5 * constants.kind.mass)),
+            tsubu_contact::restitution::at_zero_overlap(
+                law.damping_ratio(0.5 * constants.kind.mass)
+            ),
         ),
     ];
     if scene.grains.soften > 1.0 {
-        lines.push(format!("softened: stiffness divided by {}", scene.grains.soften));
+        lines.push(format!(
+            "softened: stiffness divided by {}",
+            scene.grains.soften
+        ));
     }
     if scene.gravity > 0.0 {
         lines.push(format!("weight: {} m/s2 downwards", scene.gravity));
     }
     for wall in &scene.walls {
-        let part = |x: Option<f64>, name: &str, none: &str| x.map_or(none.to_owned(), |x| format!("{name} {x}"));
+        let part = |x: Option<f64>, name: &str, none: &str| {
+            x.map_or(none.to_owned(), |x| format!("{name} {x}"))
+        };
         lines.push(format!(
             "wall `{}`: {}, {}",
             wall.name,
@@ -165,9 +217,17 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
             part(wall.friction, "kinetic friction", "smooth")
         ));
     }
-    for (name, axis) in [("x", scene.domain.x), ("y", scene.domain.y), ("z", scene.domain.z)] {
+    for (name, axis) in [
+        ("x", scene.domain.x),
+        ("y", scene.domain.y),
+        ("z", scene.domain.z),
+    ] {
         if let Axis::Periodic(length) = axis {
-            lines.push(format!("periodic in {name}: {:.4} mm = {:.1} d'", length * 1e3, length / constants.kind.diameter()));
+            lines.push(format!(
+                "periodic in {name}: {:.4} mm = {:.1} d'",
+                length * 1e3,
+                length / constants.kind.diameter()
+            ));
         }
     }
     if let Initial::Fill(fill) = &scene.initial {
@@ -179,11 +239,15 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
 fn not_modelled(scene: &Scene) -> Vec<String> {
     let mut lines = vec![
         "spin: grains do not turn and store no spin".to_owned(),
-        "static friction and contact memory: a heap creeps, its angle is a function of time".to_owned(),
+        "static friction and contact memory: a heap creeps, its angle is a function of time"
+            .to_owned(),
         "water, air, cohesion, breakage, grains of several sizes".to_owned(),
     ];
     if !scene.output.energies {
-        lines.push("energy lost to damping and friction: not tallied (output.energies: true does)".to_owned());
+        lines.push(
+            "energy lost to damping and friction: not tallied (output.energies: true does)"
+                .to_owned(),
+        );
     }
     lines
 }

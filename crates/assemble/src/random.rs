@@ -4,7 +4,9 @@
 pub(crate) fn uniform(seed: u64, identity: u64, event: u64) -> f64 {
     let mut z = seed;
     for word in [identity, event, 0x5851_f42d_4c95_7f2d] {
-        z = z.wrapping_add(word.wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_add(0x9e37_79b9_7f4a_7c15);
+        z = z
+            .wrapping_add(word.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+            .wrapping_add(0x9e37_79b9_7f4a_7c15);
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^= z >> 31;
@@ -22,9 +24,19 @@ mod tests {
         let draws: Vec<f64> = (0..n).map(|i| uniform(1, i, 0)).collect();
         let mean = draws.iter().sum::<f64>() / n as f64;
         // Standard error of the mean of a flat draw: 1/√(12 n); five of them.
-        assert!((mean - 0.5).abs() < 5.0 / (12.0 * n as f64).sqrt(), "{mean}");
-        let product = draws.windows(2).map(|w| (w[0] - 0.5) * (w[1] - 0.5)).sum::<f64>() / n as f64;
-        assert!(product.abs() < 5.0 / (12.0 * (n as f64).sqrt()), "{product}");
+        assert!(
+            (mean - 0.5).abs() < 5.0 / (12.0 * n as f64).sqrt(),
+            "{mean}"
+        );
+        let product = draws
+            .windows(2)
+            .map(|w| (w[0] - 0.5) * (w[1] - 0.5))
+            .sum::<f64>()
+            / n as f64;
+        assert!(
+            product.abs() < 5.0 / (12.0 * (n as f64).sqrt()),
+            "{product}"
+        );
         assert_ne!(uniform(1, 7, 0), uniform(2, 7, 0));
         assert_ne!(uniform(1, 7, 0), uniform(1, 7, 1));
     }

@@ -5,7 +5,9 @@ use glam::DVec3;
 use std::sync::Arc;
 use tsubu_contact::RepulsiveWall;
 use tsubu_engine::{Health, Layout, OneKind, Tally, World};
-use tsubu_model::{Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Reading, Still, Surface, View};
+use tsubu_model::{
+    Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Reading, Still, Surface, View,
+};
 use tsubu_scene::End;
 
 /// Overlap over the law's range above which a run stops: the laws are made for a hundredth.
@@ -107,6 +109,8 @@ pub(crate) struct Running<D: Layout, L: ContactLaw<D, Still>, T: Tally> {
     /// Number of the body whose removal starts the clock, and the time by which it must have gone.
     pub release: Option<Release>,
     pub trouble: Option<Stop>,
+    /// The law from the release on, if another one holds while the grains settle.
+    pub law_after: Option<L>,
 }
 
 /// The wait for stillness.
@@ -141,12 +145,19 @@ where
             self.world.remove_body(number);
             if let Some(release) = self.release.as_mut().filter(|r| r.body == number) {
                 release.at_step = Some(self.world.steps());
+                if let Some(law) = self.law_after.take() {
+                    self.world.set_law(&law);
+                }
             }
         }
         if let Some(release) = self.release.filter(|r| r.at_step.is_none())
             && self.world.now() > release.at_most
         {
-            self.trouble = Some(Stop::NeverStill { time: self.world.now(), agitation: self.agitation(), asked: release.asked });
+            self.trouble = Some(Stop::NeverStill {
+                time: self.world.now(),
+                agitation: self.agitation(),
+                asked: release.asked,
+            });
         }
     }
 }
@@ -184,7 +195,11 @@ where
     }
 
     fn stop(&self) -> Option<Stop> {
-        self.trouble.clone().or_else(|| self.last_step().filter(|&last| self.world.steps() >= last).map(|_| Stop::Over))
+        self.trouble.clone().or_else(|| {
+            self.last_step()
+                .filter(|&last| self.world.steps() >= last)
+                .map(|_| Stop::Over)
+        })
     }
 
     fn steps(&self) -> u64 {
@@ -203,7 +218,9 @@ where
     }
 
     fn released_at(&self) -> Option<f64> {
-        self.release.and_then(|r| r.at_step).map(|step| step as f64 * self.world.dt())
+        self.release
+            .and_then(|r| r.at_step)
+            .map(|step| step as f64 * self.world.dt())
     }
 
     fn grains(&self) -> usize {
@@ -220,7 +237,10 @@ where
         if !deep.is_fine() && self.trouble.is_none() {
             self.trouble = Some(Stop::Trouble(deep));
         }
-        self.observers.iter_mut().flat_map(|o| o.see(world)).collect()
+        self.observers
+            .iter_mut()
+            .flat_map(|o| o.see(world))
+            .collect()
     }
 
     fn report(&self) -> Vec<Reading> {
@@ -246,12 +266,22 @@ where
             })
             .collect();
         grains.sort_unstable_by_key(|g| g.identity);
-        Snapshot { time: self.world.now(), grains }
+        Snapshot {
+            time: self.world.now(),
+            grains,
+        }
     }
 
     fn outlines(&self, low: DVec3, high: DVec3) -> Vec<[DVec3; 2]> {
-        let there = self.world.bodies().into_iter().zip(&self.surfaces).filter(|(b, _)| b.removed_at.is_none());
-        there.flat_map(|(_, surface)| surface.outline(low, high)).collect()
+        let there = self
+            .world
+            .bodies()
+            .into_iter()
+            .zip(&self.surfaces)
+            .filter(|(b, _)| b.removed_at.is_none());
+        there
+            .flat_map(|(_, surface)| surface.outline(low, high))
+            .collect()
     }
 
     fn bytes_per_grain(&self) -> f64 {
@@ -259,13 +289,25 @@ where
     }
 
     fn body_forces(&self) -> Vec<(String, DVec3)> {
-        self.world.bodies().into_iter().map(|b| (b.name, D::to_space(b.force))).collect()
+        self.world
+            .bodies()
+            .into_iter()
+            .map(|b| (b.name, D::to_space(b.force)))
+            .collect()
     }
 
     fn state(&self) -> Vec<(DVec3, DVec3)> {
         let mut order: Vec<usize> = (0..self.world.len()).collect();
         order.sort_unstable_by_key(|&i| self.world.identity(i));
-        order.into_iter().map(|i| (D::to_space(self.world.position(i)), D::to_space(self.world.velocity(i)))).collect()
+        order
+            .into_iter()
+            .map(|i| {
+                (
+                    D::to_space(self.world.position(i)),
+                    D::to_space(self.world.velocity(i)),
+                )
+            })
+            .collect()
     }
 
     fn solve_residual(&self) -> f64 {

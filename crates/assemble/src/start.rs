@@ -11,15 +11,32 @@ use tsubu_scene::{Checked, Initial, SceneError};
 const MOST_OVERLAP: f64 = 0.01;
 
 /// Position and velocity of each grain.
-pub(crate) fn grains<D: Dim>(checked: &Checked, constants: &Constants, domain: &Domain<D>) -> Result<Vec<(D::V, D::V, usize)>, SceneError> {
+pub(crate) fn grains<D: Dim>(
+    checked: &Checked,
+    constants: &Constants,
+    domain: &Domain<D>,
+) -> Result<Vec<(D::V, D::V, usize)>, SceneError> {
     let diameter = constants.kind.diameter();
     let grains: Vec<(D::V, D::V, usize)> = match checked.starting_grains()? {
         Some(listed) => {
             if checked.scene.grains.coarse > 0 {
                 let what = "grains that are listed one by one cannot be coarsened: a coarse grain stands for several of them";
-                return Err(checked.problem("grains.coarse", what, "set grains.coarse to 0, or fill a region instead"));
+                return Err(checked.problem(
+                    "grains.coarse",
+                    what,
+                    "set grains.coarse to 0, or fill a region instead",
+                ));
             }
-            listed.iter().map(|g| (domain.wrap(D::from_space(g.at)), D::from_space(g.velocity), 0)).collect()
+            listed
+                .iter()
+                .map(|g| {
+                    (
+                        domain.wrap(D::from_space(g.at)),
+                        D::from_space(g.velocity),
+                        0,
+                    )
+                })
+                .collect()
         }
         None => filled(checked, diameter, domain)?,
     };
@@ -31,32 +48,70 @@ pub(crate) fn grains<D: Dim>(checked: &Checked, constants: &Constants, domain: &
         })
     });
     if let Some((i, wall, distance)) = behind {
-        let what = format!("grain {i} starts {} mm behind the wall `{wall}`", -distance * 1e3);
-        return Err(checked.problem("initial", what, "move the grains, or turn the wall's outward normal towards them"));
+        let what = format!(
+            "grain {i} starts {} mm behind the wall `{wall}`",
+            -distance * 1e3
+        );
+        return Err(checked.problem(
+            "initial",
+            what,
+            "move the grains, or turn the wall's outward normal towards them",
+        ));
     }
     refuse_overlaps(checked, &grains, diameter, domain)?;
     Ok(grains)
 }
 
-fn filled<D: Dim>(checked: &Checked, diameter: f64, domain: &Domain<D>) -> Result<Vec<(D::V, D::V, usize)>, SceneError> {
-    let Initial::Fill(wish) = &checked.scene.initial else { return Ok(Vec::new()) };
+fn filled<D: Dim>(
+    checked: &Checked,
+    diameter: f64,
+    domain: &Domain<D>,
+) -> Result<Vec<(D::V, D::V, usize)>, SceneError> {
+    let Initial::Fill(wish) = &checked.scene.initial else {
+        return Ok(Vec::new());
+    };
     let count = wish.count(diameter, checked.scene.space);
     if count == 0 {
-        let what = format!("the region has no room for a single grain of {:.4} mm at this solid fraction", diameter * 1e3);
-        return Err(checked.problem("initial.fill", what, "enlarge the region, raise solid_fraction or lower grains.coarse"));
+        let what = format!(
+            "the region has no room for a single grain of {:.4} mm at this solid fraction",
+            diameter * 1e3
+        );
+        return Err(checked.problem(
+            "initial.fill",
+            what,
+            "enlarge the region, raise solid_fraction or lower grains.coarse",
+        ));
     }
     if count > 200_000_000 {
         let what = format!("the fill asks for {count} grains, more than any machine here holds");
-        return Err(checked.problem("initial.fill", what, "shrink the region or raise grains.coarse"));
+        return Err(checked.problem(
+            "initial.fill",
+            what,
+            "shrink the region or raise grains.coarse",
+        ));
     }
-    let places = fill::<D>(&Box3 { min: wish.min, max: wish.max }, count, diameter, domain, wish.seed);
+    let places = fill::<D>(
+        &Box3 {
+            min: wish.min,
+            max: wish.max,
+        },
+        count,
+        diameter,
+        domain,
+        wish.seed,
+    );
     places.map(|places| places.into_iter().map(|x| (x, D::V::ZERO, 0)).collect()).map_err(|fitted| {
         let what = format!("the region has no room: only {fitted} of {count} grains of {:.4} mm could be placed", diameter * 1e3);
         checked.problem("initial.fill", what, "enlarge the region, lower solid_fraction or lower grains.coarse")
     })
 }
 
-fn refuse_overlaps<D: Dim>(checked: &Checked, grains: &[(D::V, D::V, usize)], diameter: f64, domain: &Domain<D>) -> Result<(), SceneError> {
+fn refuse_overlaps<D: Dim>(
+    checked: &Checked,
+    grains: &[(D::V, D::V, usize)],
+    diameter: f64,
+    domain: &Domain<D>,
+) -> Result<(), SceneError> {
     let n = grains.len();
     let reach = diameter * (1.0 - MOST_OVERLAP);
     let grid = CellGrid::new(domain, n, |i| grains[i].0, reach);
@@ -64,7 +119,14 @@ fn refuse_overlaps<D: Dim>(checked: &Checked, grains: &[(D::V, D::V, usize)], di
     let mut list = ChunkList::default();
     // Chunk by chunk, as a list's slots are 16-bit.
     for first in (0..n).step_by(32_768) {
-        list.build(&grid, domain, first..(first + 32_768).min(n), |i| grains[old(i)].0, reach, n as u32);
+        list.build(
+            &grid,
+            domain,
+            first..(first + 32_768).min(n),
+            |i| grains[old(i)].0,
+            reach,
+            n as u32,
+        );
         if let Some((slot, j)) = list.iter().next() {
             let (i, j) = (old(first + slot), old(j));
             let apart = domain.nearest(grains[i].0 - grains[j].0).length();
@@ -74,7 +136,11 @@ fn refuse_overlaps<D: Dim>(checked: &Checked, grains: &[(D::V, D::V, usize)], di
                 i.max(j),
                 100.0 * (1.0 - apart / diameter)
             );
-            return Err(checked.problem("initial", what, "move them apart: more than 1 % would shoot them off"));
+            return Err(checked.problem(
+                "initial",
+                what,
+                "move them apart: more than 1 % would shoot them off",
+            ));
         }
     }
     Ok(())

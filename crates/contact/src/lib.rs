@@ -11,9 +11,9 @@
 //! ```
 
 mod repulsion;
-mod wall;
 pub mod restitution;
 pub mod testing;
+mod wall;
 
 pub use repulsion::{Damping, Isotropic, PerDirection, Repulsion, RepulsionPair};
 pub use wall::{RepulsiveWall, RepulsiveWallPair};

@@ -1,7 +1,9 @@
 //! The exemplar of a contact law: Lennard-Jones repulsion and viscous damping. New laws copy its shape.
 
 use std::marker::PhantomData;
-use tsubu_model::{Constants, ContactLaw, Dim, Kind, Linear, Push, Quantity, SpinState, Touch, Vector};
+use tsubu_model::{
+    Constants, ContactLaw, Dim, Kind, Linear, Push, Quantity, SpinState, Touch, Vector,
+};
 
 /// 2^(1/6): range of the repulsion over σ.
 const RANGE_OVER_SIGMA: f64 = 1.122_462_048_309_373;
@@ -91,7 +93,8 @@ impl Damping for PerDirection {
     fn force<D: Dim>(pair: &RepulsionPair, apart: D::V, velocity: D::V, r2: f64) -> D::V {
         // n (n·v) = apart (apart·v)/r²: the projection needs no root.
         let along = apart * (apart.dot(velocity) / r2);
-        (along * (pair.tangential_damping - pair.normal_damping)) + velocity * -pair.tangential_damping
+        (along * (pair.tangential_damping - pair.normal_damping))
+            + velocity * -pair.tangential_damping
     }
 }
 
@@ -142,19 +145,58 @@ impl RepulsionPair {
 impl Repulsion<Isotropic> {
     /// From ε (J), σ (m), γn and γt (kg/s) of a grain of this diameter (m).
     /// Use [`per_direction`](Repulsion::per_direction) when γn and γt differ.
-    pub fn new(epsilon: f64, sigma: f64, normal_damping: f64, tangential_damping: f64, diameter: f64) -> Self {
-        Self { epsilon, sigma, normal_damping, tangential_damping, diameter, damping: PhantomData }
+    pub fn new(
+        epsilon: f64,
+        sigma: f64,
+        normal_damping: f64,
+        tangential_damping: f64,
+        diameter: f64,
+    ) -> Self {
+        Self {
+            epsilon,
+            sigma,
+            normal_damping,
+            tangential_damping,
+            diameter,
+            damping: PhantomData,
+        }
     }
 
     /// From Young's modulus E (Pa): contact stiffness k = E σ, so ε = E σ³ / (72·2^(−1/3)).
-    pub fn from_young_modulus(young: f64, sigma: f64, normal_damping: f64, tangential_damping: f64, diameter: f64) -> Self {
-        Self::new(young * sigma.powi(3) / STIFFNESS_FACTOR, sigma, normal_damping, tangential_damping, diameter)
+    pub fn from_young_modulus(
+        young: f64,
+        sigma: f64,
+        normal_damping: f64,
+        tangential_damping: f64,
+        diameter: f64,
+    ) -> Self {
+        Self::new(
+            young * sigma.powi(3) / STIFFNESS_FACTOR,
+            sigma,
+            normal_damping,
+            tangential_damping,
+            diameter,
+        )
     }
 
     /// The same constants with the damping taken direction by direction.
     pub fn per_direction(self) -> Repulsion<PerDirection> {
-        let Self { epsilon, sigma, normal_damping, tangential_damping, diameter, .. } = self;
-        Repulsion { epsilon, sigma, normal_damping, tangential_damping, diameter, damping: PhantomData }
+        let Self {
+            epsilon,
+            sigma,
+            normal_damping,
+            tangential_damping,
+            diameter,
+            ..
+        } = self;
+        Repulsion {
+            epsilon,
+            sigma,
+            normal_damping,
+            tangential_damping,
+            diameter,
+            damping: PhantomData,
+        }
     }
 
     /// σ in m of a grain that touches at its diameter: d / 2^(1/6).
@@ -218,9 +260,16 @@ impl<G: Damping, D: Dim, S: SpinState> ContactLaw<D, S> for Repulsion<G> {
 
     /// σ is the mean of the two kinds', k and γ the harmonic means.
     fn pair(&self, a: &Kind, b: &Kind) -> RepulsionPair {
-        let (a, b) = (self.at_diameter(a.diameter()), self.at_diameter(b.diameter()));
+        let (a, b) = (
+            self.at_diameter(a.diameter()),
+            self.at_diameter(b.diameter()),
+        );
         let sigma = 0.5 * (a.sigma + b.sigma);
-        let epsilon = if a.diameter == b.diameter { a.epsilon } else { harmonic_mean(a.stiffness(), b.stiffness()) * sigma * sigma / STIFFNESS_FACTOR };
+        let epsilon = if a.diameter == b.diameter {
+            a.epsilon
+        } else {
+            harmonic_mean(a.stiffness(), b.stiffness()) * sigma * sigma / STIFFNESS_FACTOR
+        };
         let range = RANGE_OVER_SIGMA * sigma;
         RepulsionPair {
             epsilon24: 24.0 * epsilon,
@@ -236,11 +285,21 @@ impl<G: Damping, D: Dim, S: SpinState> ContactLaw<D, S> for Repulsion<G> {
     }
 
     #[inline(always)]
-    fn force(pair: &RepulsionPair, touch: &Touch<D, S>, _memory: &mut [f64; 0], _dt: f64) -> Push<D, S> {
+    fn force(
+        pair: &RepulsionPair,
+        touch: &Touch<D, S>,
+        _memory: &mut [f64; 0],
+        _dt: f64,
+    ) -> Push<D, S> {
         let touching = if touch.r2 < pair.range2 { 1.0 } else { 0.0 };
         let elastic = touch.apart * (pair.push_over_r(touch.r2) * touching);
         let viscous = G::force::<D>(pair, touch.apart, touch.velocity, touch.r2) * touching;
-        Push { elastic, viscous, slip: D::V::ZERO, torque: Default::default() }
+        Push {
+            elastic,
+            viscous,
+            slip: D::V::ZERO,
+            torque: Default::default(),
+        }
     }
 
     fn stored(pair: &RepulsionPair, touch: &Touch<D, S>, _memory: &[f64; 0]) -> f64 {
@@ -266,7 +325,11 @@ impl<G: Damping> Constants for Repulsion<G> {
             ("epsilon", Quantity::Energy, self.epsilon),
             ("sigma", Quantity::Length, self.sigma),
             ("normal_damping", Quantity::Damping, self.normal_damping),
-            ("tangential_damping", Quantity::Damping, self.tangential_damping),
+            (
+                "tangential_damping",
+                Quantity::Damping,
+                self.tangential_damping,
+            ),
             ("diameter", Quantity::Length, self.diameter),
         ]
     }

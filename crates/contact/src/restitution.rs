@@ -13,7 +13,11 @@ use std::f64::consts::PI;
 /// assert!((e - 0.8967).abs() < 2e-4);   // paper A's coke, a pair
 /// ```
 pub fn at_zero_overlap(zeta: f64) -> f64 {
-    if zeta >= 1.0 { 0.0 } else { (-PI * zeta / (1.0 - zeta * zeta).sqrt()).exp() }
+    if zeta >= 1.0 {
+        0.0
+    } else {
+        (-PI * zeta / (1.0 - zeta * zeta).sqrt()).exp()
+    }
 }
 
 /// e when the contact ends at zero force (no pull), for any ζ ≥ 0.

@@ -1,7 +1,9 @@
 //! Paper A's law for a grain against a surface: the grains' repulsion, restitution, kinetic friction.
 
 use crate::{Isotropic, Repulsion, RepulsionPair, restitution};
-use tsubu_model::{Constants, ContactLaw, Dim, Kind, Linear, Push, Quantity, SpinState, Touch, Vector};
+use tsubu_model::{
+    Constants, ContactLaw, Dim, Kind, Linear, Push, Quantity, SpinState, Touch, Vector,
+};
 
 /// Grain against a surface.
 ///
@@ -62,7 +64,9 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for RepulsiveWall {
     fn pair(&self, grain: &Kind, _wall: &Kind) -> RepulsiveWallPair {
         let repulsion = <Repulsion as ContactLaw<D, S>>::pair(&self.grains, grain, grain);
         let stiffness = repulsion.stiffness(repulsion.range2 * (1.0 - 1e-15));
-        let zeta = self.restitution.map_or(0.0, restitution::ratio_from_restitution);
+        let zeta = self
+            .restitution
+            .map_or(0.0, restitution::ratio_from_restitution);
         RepulsiveWallPair {
             repulsion,
             damping: 2.0 * zeta * (grain.mass * stiffness).sqrt(),
@@ -76,8 +80,17 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for RepulsiveWall {
     }
 
     #[inline(always)]
-    fn force(pair: &RepulsiveWallPair, touch: &Touch<D, S>, _memory: &mut [f64; 0], dt: f64) -> Push<D, S> {
-        let touching = if touch.r2 < pair.repulsion.range2 { 1.0 } else { 0.0 };
+    fn force(
+        pair: &RepulsiveWallPair,
+        touch: &Touch<D, S>,
+        _memory: &mut [f64; 0],
+        dt: f64,
+    ) -> Push<D, S> {
+        let touching = if touch.r2 < pair.repulsion.range2 {
+            1.0
+        } else {
+            0.0
+        };
         let r = touch.r();
         let normal = touch.apart * (1.0 / r);
         let elastic = pair.repulsion.push_over_r(touch.r2) * r * touching;
@@ -111,7 +124,8 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for RepulsiveWall {
             tangential_stiffness: 0.0,
             normal_damping: pair.damping,
             // Friction as the dashpot that gives the same force at this slip.
-            tangential_damping: (pair.friction * pressed / slip.max(f64::MIN_POSITIVE)).min(pair.mass / dt),
+            tangential_damping: (pair.friction * pressed / slip.max(f64::MIN_POSITIVE))
+                .min(pair.mass / dt),
         }
     }
 }
@@ -119,7 +133,10 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for RepulsiveWall {
 impl Constants for RepulsiveWall {
     fn constants(&self) -> Vec<(&'static str, Quantity, f64)> {
         let mut all = self.grains.constants();
-        all.extend(self.restitution.map(|e| ("restitution", Quantity::Restitution, e)));
+        all.extend(
+            self.restitution
+                .map(|e| ("restitution", Quantity::Restitution, e)),
+        );
         all.push(("friction", Quantity::Number, self.friction));
         all
     }

@@ -40,7 +40,7 @@ pub(crate) struct Chunk<D: Dim> {
     pub fastest2: f64,
     /// Square of the largest change of velocity in the last sweep of the last solve.
     pub last_sweep2: f64,
-    /// First grain (index) that was not finite or too fast, since the start.
+    /// Slot of a grain that was not finite or too fast in the last drift.
     pub trouble: Option<usize>,
 }
 

@@ -22,7 +22,13 @@ pub(crate) struct Kick<'a> {
 impl Kick<'_> {
     /// v += F h/m, then the drift. The work of the dissipative forces is summed with the mean of the
     /// old and the new velocity: with it, Δ(½mv²) = F·v̄ h holds to rounding.
-    pub fn run<D: Layout, K: KindSet, T: Tally>(&self, first: usize, chunk: &mut Chunk<D>, lines: &mut [Line], force: &[D::V], viscous: &[D::V]) {
+    pub fn run<D: Layout, K: KindSet, T: Tally>(
+        &self,
+        chunk: &mut Chunk<D>,
+        lines: &mut [Line],
+        force: &[D::V],
+        viscous: &[D::V],
+    ) {
         let mut fastest2 = 0.0f64;
         let mut trouble = None;
         let mut lost = 0.0;
@@ -42,23 +48,40 @@ impl Kick<'_> {
             for part in &chunk.wall_parts {
                 let line = &lines[part.slot as usize];
                 let mass = pick::<K, _>(self.kinds, line.kind::<D>()).mass;
-                let mean = line.velocity::<D>() + force[part.slot as usize] * (-0.5 * self.h / mass);
+                let mean =
+                    line.velocity::<D>() + force[part.slot as usize] * (-0.5 * self.h / mass);
                 walls[0] += part.viscous.dot(mean);
                 walls[1] += part.slip.dot(mean);
             }
             chunk.lost[1] -= self.h * walls[0];
             chunk.lost[2] -= self.h * walls[1];
         }
-        self.note(first, chunk, fastest2, trouble);
+        self.note(chunk, fastest2, trouble);
     }
 
     /// One Jacobi sweep of the solve (see `tsubu_integrate::correction`).
-    pub fn sweep<D: Layout, K: KindSet>(&self, chunk: &mut Chunk<D>, lines: &mut [Line], force: &[D::V], base: &[D::V], damping: &[f64]) {
+    pub fn sweep<D: Layout, K: KindSet>(
+        &self,
+        chunk: &mut Chunk<D>,
+        lines: &mut [Line],
+        force: &[D::V],
+        base: &[D::V],
+        damping: &[f64],
+    ) {
         let mut most = 0.0f64;
         for (slot, line) in lines.iter_mut().enumerate() {
             let mass = pick::<K, _>(self.kinds, line.kind::<D>()).mass;
             let (u, v) = (base[slot], line.velocity::<D>());
-            let step = D::V::from_axes(|a| correction(mass, u.axis(a), v.axis(a), force[slot].axis(a), damping[slot], self.h));
+            let step = D::V::from_axes(|a| {
+                correction(
+                    mass,
+                    u.axis(a),
+                    v.axis(a),
+                    force[slot].axis(a),
+                    damping[slot],
+                    self.h,
+                )
+            });
             most = most.max(step.length_squared());
             line.set_velocity::<D>(v + step);
         }
@@ -69,7 +92,6 @@ impl Kick<'_> {
     /// the difference to the last evaluation counts as viscous; then the drift.
     pub fn finish_solve<D: Layout, K: KindSet, T: Tally>(
         &self,
-        first: usize,
         chunk: &mut Chunk<D>,
         lines: &mut [Line],
         force: &mut [D::V],
@@ -85,13 +107,25 @@ impl Kick<'_> {
             force[slot] = solved;
             line.set_velocity::<D>(base[slot]);
         }
-        self.run::<D, K, T>(first, chunk, lines, force, viscous);
+        self.run::<D, K, T>(chunk, lines, force, viscous);
     }
 
     #[inline(always)]
-    fn drift<D: Layout>(&self, line: &mut Line, old: D::V, new: D::V, slot: usize, fastest2: &mut f64, trouble: &mut Option<usize>) {
+    fn drift<D: Layout>(
+        &self,
+        line: &mut Line,
+        old: D::V,
+        new: D::V,
+        slot: usize,
+        fastest2: &mut f64,
+        trouble: &mut Option<usize>,
+    ) {
         let Some(drift) = self.drift else { return };
-        let v = if drift == Drift::WithOldVelocity { old } else { new };
+        let v = if drift == Drift::WithOldVelocity {
+            old
+        } else {
+            new
+        };
         line.set_position::<D>(line.position::<D>() + v * self.dt);
         let speed2 = v.length_squared();
         // Written so that NaN counts as trouble.
@@ -101,10 +135,10 @@ impl Kick<'_> {
         *fastest2 = fastest2.max(speed2);
     }
 
-    fn note<D: Layout>(&self, first: usize, chunk: &mut Chunk<D>, fastest2: f64, trouble: Option<usize>) {
+    fn note<D: Layout>(&self, chunk: &mut Chunk<D>, fastest2: f64, trouble: Option<usize>) {
         if self.drift.is_some() {
             chunk.fastest2 = fastest2;
-            chunk.trouble = chunk.trouble.or(trouble.map(|slot| first + slot));
+            chunk.trouble = trouble;
         }
     }
 }

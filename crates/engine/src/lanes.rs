@@ -31,7 +31,11 @@ impl Lanes {
 
     /// The widest this machine has.
     pub fn best() -> Self {
-        Self::ALL.into_iter().rev().find(|l| l.is_here()).unwrap_or(Lanes::Portable)
+        Self::ALL
+            .into_iter()
+            .rev()
+            .find(|l| l.is_here())
+            .unwrap_or(Lanes::Portable)
     }
 
     /// True if this machine has them.
@@ -41,7 +45,11 @@ impl Lanes {
             #[cfg(target_arch = "x86_64")]
             Lanes::Avx2 => is_x86_feature_detected!("avx2"),
             #[cfg(target_arch = "x86_64")]
-            Lanes::Avx512 => is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") && is_x86_feature_detected!("avx512vl"),
+            Lanes::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+            }
             #[cfg(not(target_arch = "x86_64"))]
             _ => false,
         }
@@ -77,8 +85,12 @@ pub(crate) trait Gather {
 
 /// The force loop of a chunk on the vector path `lanes`.
 /// A path that the machine lacks is never taken: the portable one runs instead.
-pub(crate) fn run<D, S, K, L, T>(lanes: Lanes, job: &Job<'_, D, S, K, L, T>, force: &mut [D::V], viscous: &mut [D::V])
-where
+pub(crate) fn run<D, S, K, L, T>(
+    lanes: Lanes,
+    job: &Job<'_, D, S, K, L, T>,
+    force: &mut [D::V],
+    viscous: &mut [D::V],
+) where
     D: Layout,
     S: SpinState,
     K: KindSet,
@@ -119,8 +131,11 @@ mod x86 {
 
     /// SAFETY: the machine must have AVX-512 F, DQ and VL.
     #[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
-    pub(super) unsafe fn run_avx512<D, S, K, L, T>(job: &Job<'_, D, S, K, L, T>, force: &mut [D::V], viscous: &mut [D::V])
-    where
+    pub(super) unsafe fn run_avx512<D, S, K, L, T>(
+        job: &Job<'_, D, S, K, L, T>,
+        force: &mut [D::V],
+        viscous: &mut [D::V],
+    ) where
         D: Layout,
         S: SpinState,
         K: KindSet,
@@ -132,8 +147,11 @@ mod x86 {
 
     /// SAFETY: the machine must have AVX2.
     #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn run_avx2<D, S, K, L, T>(job: &Job<'_, D, S, K, L, T>, force: &mut [D::V], viscous: &mut [D::V])
-    where
+    pub(super) unsafe fn run_avx2<D, S, K, L, T>(
+        job: &Job<'_, D, S, K, L, T>,
+        force: &mut [D::V],
+        viscous: &mut [D::V],
+    ) where
         D: Layout,
         S: SpinState,
         K: KindSet,
@@ -158,11 +176,16 @@ mod x86 {
         fn gather(lines: &[Line], block: &[u32; LANES]) -> Columns {
             // SAFETY: only inlined into `run_avx512`; lines are 64-byte aligned.
             unsafe {
-                let r: [__m512d; 8] = std::array::from_fn(|k| _mm512_load_pd(line(lines, block, k)));
+                let r: [__m512d; 8] =
+                    std::array::from_fn(|k| _mm512_load_pd(line(lines, block, k)));
                 // Pairs of lanes, then pairs of pairs, then halves: the usual 8 × 8 transpose.
                 let u: [__m512d; 8] = std::array::from_fn(|i| {
                     let (a, b) = (r[i & !1], r[i | 1]);
-                    if i & 1 == 0 { _mm512_unpacklo_pd(a, b) } else { _mm512_unpackhi_pd(a, b) }
+                    if i & 1 == 0 {
+                        _mm512_unpacklo_pd(a, b)
+                    } else {
+                        _mm512_unpackhi_pd(a, b)
+                    }
                 });
                 // u[0] = columns 0,2,4,6 of lanes 0,1; u[1] = columns 1,3,5,7 of lanes 0,1; u[2], u[3] of lanes 2,3; …
                 let mut out = Columns([[0.0; LANES]; 8]);
@@ -173,11 +196,29 @@ mod x86 {
                     let ab_high = _mm512_shuffle_f64x2::<0b_11_01_11_01>(a, b); // a1 a3 b1 b3
                     let cd_low = _mm512_shuffle_f64x2::<0b_10_00_10_00>(c, d);
                     let cd_high = _mm512_shuffle_f64x2::<0b_11_01_11_01>(c, d);
-                    let store = |out: &mut Columns, column: usize, v: __m512d| _mm512_store_pd(out.0[column].as_mut_ptr(), v);
-                    store(&mut out, odd, _mm512_shuffle_f64x2::<0b_10_00_10_00>(ab_low, cd_low)); // a0 b0 c0 d0
-                    store(&mut out, odd + 4, _mm512_shuffle_f64x2::<0b_11_01_11_01>(ab_low, cd_low)); // a2 b2 c2 d2
-                    store(&mut out, odd + 2, _mm512_shuffle_f64x2::<0b_10_00_10_00>(ab_high, cd_high));
-                    store(&mut out, odd + 6, _mm512_shuffle_f64x2::<0b_11_01_11_01>(ab_high, cd_high));
+                    let store = |out: &mut Columns, column: usize, v: __m512d| {
+                        _mm512_store_pd(out.0[column].as_mut_ptr(), v)
+                    };
+                    store(
+                        &mut out,
+                        odd,
+                        _mm512_shuffle_f64x2::<0b_10_00_10_00>(ab_low, cd_low),
+                    ); // a0 b0 c0 d0
+                    store(
+                        &mut out,
+                        odd + 4,
+                        _mm512_shuffle_f64x2::<0b_11_01_11_01>(ab_low, cd_low),
+                    ); // a2 b2 c2 d2
+                    store(
+                        &mut out,
+                        odd + 2,
+                        _mm512_shuffle_f64x2::<0b_10_00_10_00>(ab_high, cd_high),
+                    );
+                    store(
+                        &mut out,
+                        odd + 6,
+                        _mm512_shuffle_f64x2::<0b_11_01_11_01>(ab_high, cd_high),
+                    );
                 }
                 out
             }
@@ -199,7 +240,10 @@ mod x86 {
         // SAFETY: only inlined under AVX2 or wider.
         unsafe {
             let four = _mm256_add_pd(low, high);
-            let two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd::<1>(four));
+            let two = _mm_add_pd(
+                _mm256_castpd256_pd128(four),
+                _mm256_extractf128_pd::<1>(four),
+            );
             _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)))
         }
     }
@@ -214,9 +258,17 @@ mod x86 {
                 let mut out = Columns([[0.0; LANES]; 8]);
                 for half in 0..2 {
                     for lanes in 0..2 {
-                        let r: [__m256d; 4] = std::array::from_fn(|k| _mm256_load_pd(line(lines, block, 4 * lanes + k).add(4 * half)));
-                        let (ab_low, ab_high) = (_mm256_unpacklo_pd(r[0], r[1]), _mm256_unpackhi_pd(r[0], r[1]));
-                        let (cd_low, cd_high) = (_mm256_unpacklo_pd(r[2], r[3]), _mm256_unpackhi_pd(r[2], r[3]));
+                        let r: [__m256d; 4] = std::array::from_fn(|k| {
+                            _mm256_load_pd(line(lines, block, 4 * lanes + k).add(4 * half))
+                        });
+                        let (ab_low, ab_high) = (
+                            _mm256_unpacklo_pd(r[0], r[1]),
+                            _mm256_unpackhi_pd(r[0], r[1]),
+                        );
+                        let (cd_low, cd_high) = (
+                            _mm256_unpacklo_pd(r[2], r[3]),
+                            _mm256_unpackhi_pd(r[2], r[3]),
+                        );
                         let mut store = |column: usize, v: __m256d| {
                             _mm256_store_pd(out.0[4 * half + column].as_mut_ptr().add(4 * lanes), v)
                         };
@@ -233,7 +285,12 @@ mod x86 {
         #[inline(always)]
         fn fold(l: [f64; LANES]) -> f64 {
             // SAFETY: only inlined into `run_avx2`.
-            unsafe { fold_halves(_mm256_loadu_pd(l.as_ptr()), _mm256_loadu_pd(l.as_ptr().add(4))) }
+            unsafe {
+                fold_halves(
+                    _mm256_loadu_pd(l.as_ptr()),
+                    _mm256_loadu_pd(l.as_ptr().add(4)),
+                )
+            }
         }
     }
 
@@ -253,7 +310,9 @@ mod x86 {
 
         #[test]
         fn every_path_transposes_alike() {
-            let lines: Vec<Line> = (0..20).map(|i| Line(std::array::from_fn(|c| f64::from(100 * i + c as u32)))).collect();
+            let lines: Vec<Line> = (0..20)
+                .map(|i| Line(std::array::from_fn(|c| f64::from(100 * i + c as u32))))
+                .collect();
             let block = [3, 19, 0, 7, 7, 12, 1, 18];
             let expected = Plain::gather(&lines, &block).0;
             assert_eq!(expected[5][1], 1905.0);

@@ -6,17 +6,17 @@
 //! Read in this order: `line` (what the force loop reads of a grain), `pass` (the force loop),
 //! `lanes` (the fenced vector module), `walls`, `kick`, `world` (one step), `rebuild`, `look`.
 
-mod line;
+mod chunk;
+mod health;
+mod kick;
 mod kinds;
 mod lanes;
-mod pass;
-mod walls;
-mod chunk;
-mod kick;
-mod world;
-mod rebuild;
+mod line;
 mod look;
-mod health;
+mod pass;
+mod rebuild;
+mod walls;
+mod world;
 
 pub use health::Health;
 pub use kinds::{KindSet, ManyKinds, OneKind};

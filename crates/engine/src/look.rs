@@ -5,7 +5,9 @@ use crate::health::Health;
 use crate::kinds::KindSet;
 use crate::line::Layout;
 use crate::world::{Tally, World, touch_of};
-use tsubu_model::{BodyState, ContactLaw, Energies, Kind, Numbers, SpinState, TouchingPair, Vector, View};
+use tsubu_model::{
+    BodyState, ContactLaw, Energies, Kind, Numbers, SpinState, TouchingPair, Vector, View,
+};
 
 impl<D, S, K, L, W, T> World<D, S, K, L, W, T>
 where
@@ -83,8 +85,20 @@ where
     }
 
     fn bodies(&self) -> Vec<BodyState<D>> {
-        let force = |k: usize| self.chunks.iter().fold(D::V::ZERO, |sum, c| sum + c.on_bodies[k]);
-        self.bodies.iter().enumerate().map(|(k, b)| BodyState { name: b.name.clone(), removed_at: b.removed_at, force: force(k) }).collect()
+        let force = |k: usize| {
+            self.chunks
+                .iter()
+                .fold(D::V::ZERO, |sum, c| sum + c.on_bodies[k])
+        };
+        self.bodies
+            .iter()
+            .enumerate()
+            .map(|(k, b)| BodyState {
+                name: b.name.clone(),
+                removed_at: b.removed_at,
+                force: force(k),
+            })
+            .collect()
     }
 
     fn gravity(&self) -> D::V {
@@ -99,7 +113,14 @@ where
             e.gravitational -= kind.weight * self.gravity.dot(self.position(i));
         }
         self.pairs_once(|i, j| {
-            let (pair, touch) = touch_of::<D, S, K, L>(&self.lines, &self.pairs, self.kinds.all().len(), &self.domain, i, j);
+            let (pair, touch) = touch_of::<D, S, K, L>(
+                &self.lines,
+                &self.pairs,
+                self.kinds.all().len(),
+                &self.domain,
+                i,
+                j,
+            );
             e.elastic += L::stored(pair, &touch, &L::Memory::zero());
         });
         e.elastic_walls = self.stored_in_walls().iter().sum();
@@ -110,7 +131,14 @@ where
 
     fn touching(&self, each: &mut dyn FnMut(TouchingPair)) {
         self.pairs_once(|i, j| {
-            let (pair, touch) = touch_of::<D, S, K, L>(&self.lines, &self.pairs, self.kinds.all().len(), &self.domain, i, j);
+            let (pair, touch) = touch_of::<D, S, K, L>(
+                &self.lines,
+                &self.pairs,
+                self.kinds.all().len(),
+                &self.domain,
+                i,
+                j,
+            );
             let overlap = L::range(pair) - touch.r();
             if overlap > 0.0 {
                 each(TouchingPair { i, j, overlap });

@@ -34,8 +34,11 @@ pub(crate) struct Job<'a, D: Layout, S: SpinState, K: KindSet, L: ContactLaw<D, 
 /// order of the list, so every path gives the same bits. `WIDE` lanes are in flight: with 32 registers
 /// two blocks at once hide each other's latency, with 16 they would spill.
 #[inline(always)]
-pub(crate) fn chunk_forces<D, S, K, L, T, G, const WIDE: usize>(job: &Job<'_, D, S, K, L, T>, force: &mut [D::V], viscous: &mut [D::V])
-where
+pub(crate) fn chunk_forces<D, S, K, L, T, G, const WIDE: usize>(
+    job: &Job<'_, D, S, K, L, T>,
+    force: &mut [D::V],
+    viscous: &mut [D::V],
+) where
     D: Layout,
     S: SpinState,
     K: KindSet,
@@ -43,11 +46,20 @@ where
     T: Tally,
     G: Gather,
 {
-    const { assert!(<L::Memory as Numbers>::N == 0, "contact memory comes with the first law that has some") };
+    const {
+        assert!(
+            <L::Memory as Numbers>::N == 0,
+            "contact memory comes with the first law that has some"
+        )
+    };
     let only = job.pairs[0];
     let domain = job.domain;
     for (slot, out) in force.iter_mut().enumerate() {
-        *out = if K::INDEXED { job.weights[job.lines[job.first + slot].kind::<D>()] } else { job.weights[0] };
+        *out = if K::INDEXED {
+            job.weights[job.lines[job.first + slot].kind::<D>()]
+        } else {
+            job.weights[0]
+        };
     }
     if T::ON {
         viscous.fill(D::V::ZERO);
@@ -71,7 +83,9 @@ where
         let mut push_of = [[0.0f64; WIDE]; 3];
         let mut lost_of = [[0.0f64; WIDE]; 3];
         for k in 0..WIDE {
-            let apart = domain.nearest(D::V::from_axes(|a| own[D::POSITION + a][k] - other[D::POSITION + a][k]));
+            let apart = domain.nearest(D::V::from_axes(|a| {
+                own[D::POSITION + a][k] - other[D::POSITION + a][k]
+            }));
             let velocity = D::V::from_axes(|a| own[D::VELOCITY + a][k] - other[D::VELOCITY + a][k]);
             let touch = Touch::<D, S> {
                 apart,
@@ -80,7 +94,11 @@ where
                 reach: own[D::RADIUS][k] + other[D::RADIUS][k],
                 spin: Default::default(),
             };
-            let pair = if K::INDEXED { job.pairs[own[D::KIND][k] as usize * job.kinds + other[D::KIND][k] as usize] } else { only };
+            let pair = if K::INDEXED {
+                job.pairs[own[D::KIND][k] as usize * job.kinds + other[D::KIND][k] as usize]
+            } else {
+                only
+            };
             let push = L::force(&pair, &touch, &mut L::Memory::zero(), job.dt);
             put(&mut push_of, k, push.total());
             if T::ON {

@@ -24,13 +24,24 @@ where
     /// The largest speed of each step bounds the path; the true displacements are looked at only
     /// when that bound is used up.
     pub(crate) fn keep_lists_valid(&mut self) {
-        let fastest = self.chunks.iter().map(|c| c.fastest2).fold(0.0, f64::max).sqrt();
+        self.note_trouble();
+        let fastest = self
+            .chunks
+            .iter()
+            .map(|c| c.fastest2)
+            .fold(0.0, f64::max)
+            .sqrt();
         self.moved += fastest * self.dt();
         let half = 0.5 * self.skin;
         if self.moved <= half {
             return;
         }
-        let furthest2 = self.lines.iter().zip(&self.home).map(|(line, home)| (line.position::<D>() - *home).length_squared()).fold(0.0, f64::max);
+        let furthest2 = self
+            .lines
+            .iter()
+            .zip(&self.home)
+            .map(|(line, home)| (line.position::<D>() - *home).length_squared())
+            .fold(0.0, f64::max);
         self.moved = furthest2.sqrt();
         // Close to the end there would be a look at every step: build now.
         if self.moved > 0.85 * half || self.moved.is_nan() {
@@ -67,24 +78,50 @@ where
         for (home, line) in self.home.iter_mut().zip(lines) {
             *home = line.position::<D>();
         }
-        let (domain, skin, bodies, pairs) = (self.domain, self.skin, &self.bodies, &self.wall_pairs);
+        let (domain, skin, bodies, pairs) =
+            (self.domain, self.skin, &self.bodies, &self.wall_pairs);
         let work = |number: usize, chunk: &mut Chunk<D>| {
             let own = number * CHUNK..((number + 1) * CHUNK).min(n);
-            chunk.list.build(&grid, &domain, own.clone(), |i| lines[i].position::<D>(), cut, n as u32);
+            chunk.list.build(
+                &grid,
+                &domain,
+                own.clone(),
+                |i| lines[i].position::<D>(),
+                cut,
+                n as u32,
+            );
             chunk.near.clear();
-            for (body, (wall, pairs)) in bodies.iter().zip(pairs).enumerate().filter(|(_, (b, _))| b.removed_at.is_none()) {
+            for (body, (wall, pairs)) in bodies
+                .iter()
+                .zip(pairs)
+                .enumerate()
+                .filter(|(_, (b, _))| b.removed_at.is_none())
+            {
                 for i in own.clone() {
                     let reach = pick::<K, _>(pairs, lines[i].kind::<D>()).reach;
                     if wall.surface.lower_bound(lines[i].position::<D>()) < reach + skin {
-                        chunk.near.push(Near { body: body as u32, slot: (i - own.start) as u32 });
+                        chunk.near.push(Near {
+                            body: body as u32,
+                            slot: (i - own.start) as u32,
+                        });
                     }
                 }
             }
             // The fenced module reads lines by these indices without looking again.
-            assert!(chunk.list.blocks().iter().flatten().all(|&j| j as usize <= n));
+            assert!(
+                chunk
+                    .list
+                    .blocks()
+                    .iter()
+                    .flatten()
+                    .all(|&j| j as usize <= n)
+            );
         };
         if n >= 4 * CHUNK && rayon::current_thread_index().is_some() {
-            self.chunks.par_iter_mut().enumerate().for_each(|(number, chunk)| work(number, chunk));
+            self.chunks
+                .par_iter_mut()
+                .enumerate()
+                .for_each(|(number, chunk)| work(number, chunk));
         } else {
             for (number, chunk) in self.chunks.iter_mut().enumerate() {
                 work(number, chunk);

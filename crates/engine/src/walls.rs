@@ -56,7 +56,12 @@ impl<D: Layout, W> Body<D, W> {
                     TouchesAt::Centre => 0.0,
                 };
                 let range = W::range(&pair);
-                WallPair { pair, offset, reach: range - offset, least: 0.1 * range }
+                WallPair {
+                    pair,
+                    offset,
+                    reach: range - offset,
+                    least: 0.1 * range,
+                }
             })
             .collect()
     }
@@ -85,7 +90,11 @@ fn contacts<D, S, K, W>(
     let mut from = 0;
     while from < chunk.near.len() {
         let number = chunk.near[from].body as usize;
-        let to = from + chunk.near[from..].iter().take_while(|n| n.body as usize == number).count();
+        let to = from
+            + chunk.near[from..]
+                .iter()
+                .take_while(|n| n.body as usize == number)
+                .count();
         if job.bodies[number].removed_at.is_none() {
             chunk.points.clear();
             chunk.reaches.clear();
@@ -93,16 +102,26 @@ fn contacts<D, S, K, W>(
             for near in &chunk.near[from..to] {
                 let line = &lines[near.slot as usize];
                 chunk.points.push(line.position::<D>());
-                chunk.reaches.push(pick::<K, _>(&job.pairs[number], line.kind::<D>()).reach);
+                chunk
+                    .reaches
+                    .push(pick::<K, _>(&job.pairs[number], line.kind::<D>()).reach);
             }
-            job.bodies[number].surface.hits(&chunk.points, &chunk.reaches, &mut chunk.hits);
+            job.bodies[number]
+                .surface
+                .hits(&chunk.points, &chunk.reaches, &mut chunk.hits);
             for h in 0..chunk.hits.hits.len() {
                 let hit = chunk.hits.hits[h];
                 let slot = chunk.near[from + hit.of as usize].slot as usize;
                 let line = &lines[slot];
                 let wall = pick::<K, _>(&job.pairs[number], line.kind::<D>());
                 let s = (hit.distance + wall.offset).max(wall.least);
-                let touch = Touch { apart: hit.normal * s, velocity: line.velocity::<D>(), r2: s * s, reach: 2.0 * line.0[D::RADIUS], spin: Default::default() };
+                let touch = Touch {
+                    apart: hit.normal * s,
+                    velocity: line.velocity::<D>(),
+                    r2: s * s,
+                    reach: 2.0 * line.0[D::RADIUS],
+                    spin: Default::default(),
+                };
                 each(chunk, number, slot, &touch, &wall.pair);
             }
         }
@@ -111,8 +130,12 @@ fn contacts<D, S, K, W>(
 }
 
 /// Forces of the bodies on the chunk's grains, added to `force`; the reactions go to the chunk.
-pub(crate) fn wall_forces<D, S, K, W, T>(job: &WallJob<'_, D, S, W>, lines: &[Line], chunk: &mut Chunk<D>, force: &mut [D::V])
-where
+pub(crate) fn wall_forces<D, S, K, W, T>(
+    job: &WallJob<'_, D, S, W>,
+    lines: &[Line],
+    chunk: &mut Chunk<D>,
+    force: &mut [D::V],
+) where
     D: Layout,
     S: SpinState,
     K: KindSet,
@@ -127,14 +150,22 @@ where
         force[slot] += total;
         chunk.on_bodies[body] += -total;
         if T::ON {
-            chunk.wall_parts.push(WallPart { slot: slot as u32, viscous: push.viscous, slip: push.slip });
+            chunk.wall_parts.push(WallPart {
+                slot: slot as u32,
+                viscous: push.viscous,
+                slip: push.slip,
+            });
         }
     });
 }
 
 /// Adds each grain's wall damping to `damping`, for the solve.
-pub(crate) fn wall_damping<D, S, K, W>(job: &WallJob<'_, D, S, W>, lines: &[Line], chunk: &mut Chunk<D>, damping: &mut [f64])
-where
+pub(crate) fn wall_damping<D, S, K, W>(
+    job: &WallJob<'_, D, S, W>,
+    lines: &[Line],
+    chunk: &mut Chunk<D>,
+    damping: &mut [f64],
+) where
     D: Layout,
     S: SpinState,
     K: KindSet,
@@ -146,8 +177,12 @@ where
 }
 
 /// Elastic energy of the chunk's grains against each body, added to `stored`.
-pub(crate) fn wall_energy<D, S, K, W>(job: &WallJob<'_, D, S, W>, lines: &[Line], chunk: &mut Chunk<D>, stored: &mut [f64])
-where
+pub(crate) fn wall_energy<D, S, K, W>(
+    job: &WallJob<'_, D, S, W>,
+    lines: &[Line],
+    chunk: &mut Chunk<D>,
+    stored: &mut [f64],
+) where
     D: Layout,
     S: SpinState,
     K: KindSet,

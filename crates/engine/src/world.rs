@@ -62,7 +62,14 @@ pub struct Setup<D: Layout, K, L, W> {
 
 /// A running scene. `K`: one kind or several; `L`, `W`: laws between grains and against walls;
 /// `T`: whether energies are tallied.
-pub struct World<D: Layout, S: SpinState, K: KindSet, L: ContactLaw<D, S>, W: ContactLaw<D, S>, T: Tally> {
+pub struct World<
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    W: ContactLaw<D, S>,
+    T: Tally,
+> {
     pub(crate) kinds: K,
     pub(crate) pairs: Vec<L::Pair>,
     pub(crate) bodies: Vec<Body<D, W>>,
@@ -96,6 +103,7 @@ pub struct World<D: Layout, S: SpinState, K: KindSet, L: ContactLaw<D, S>, W: Co
     pub(crate) builds: u64,
     pub(crate) build_scratch: usize,
     taken_by_removal: f64,
+    health: Health,
     types: PhantomData<(S, T)>,
 }
 
@@ -110,22 +118,43 @@ where
 {
     /// A world at rest at time 0, lists built and forces known.
     pub fn new(setup: Setup<D, K, L, W>) -> Self {
-        let Setup { kinds, law, bodies, domain, gravity, scheme, dt, skin, lanes, pool, grains } = setup;
+        let Setup {
+            kinds,
+            law,
+            bodies,
+            domain,
+            gravity,
+            scheme,
+            dt,
+            skin,
+            lanes,
+            pool,
+            grains,
+        } = setup;
         let all = kinds.all();
-        let pairs: Vec<L::Pair> = all.iter().flat_map(|a| all.iter().map(|b| law.pair(a, b))).collect();
+        let pairs: Vec<L::Pair> = all
+            .iter()
+            .flat_map(|a| all.iter().map(|b| law.pair(a, b)))
+            .collect();
         let range = pairs.iter().map(|p| L::range(p)).fold(0.0, f64::max);
         let wall_pairs = bodies.iter().map(|b| b.pairs::<S>(all)).collect();
         let weights = all.iter().map(|k| gravity * k.weight).collect();
         let n = grains.len();
         let mut lines: Vec<Line> = Vec::with_capacity(n + 1);
-        lines.extend(grains.iter().map(|&(x, v, kind)| Line::new::<D>(domain.wrap(x), v, all[kind].radius, kind)));
+        lines.extend(
+            grains
+                .iter()
+                .map(|&(x, v, kind)| Line::new::<D>(domain.wrap(x), v, all[kind].radius, kind)),
+        );
         lines.push(Line::dummy::<D>());
         let solves = if scheme.sweeps() > 0 { n } else { 0 };
         let mut world = Self {
             pairs,
             wall_pairs,
             weights,
-            chunks: (0..n.div_ceil(CHUNK)).map(|_| Chunk::new(bodies.len())).collect(),
+            chunks: (0..n.div_ceil(CHUNK))
+                .map(|_| Chunk::new(bodies.len()))
+                .collect(),
             bodies,
             domain,
             gravity,
@@ -149,6 +178,7 @@ where
             builds: 0,
             build_scratch: 0,
             taken_by_removal: 0.0,
+            health: Health::Fine,
             types: PhantomData,
             kinds,
         };
@@ -168,7 +198,7 @@ where
     fn take(&mut self, steps: u64) {
         for _ in 0..steps {
             self.step();
-            if self.chunks.iter().any(|c| c.trouble.is_some()) {
+            if !self.health.is_fine() {
                 break;
             }
         }
@@ -199,24 +229,52 @@ where
     pub(crate) fn forces(&mut self) {
         let (lines, pairs, weights) = (&self.lines, &self.pairs, &self.weights);
         let (domain, dt, path, kinds) = (self.domain, self.dt, self.lanes, self.kinds.all().len());
-        let walls = WallJob::<D, S, W> { bodies: &self.bodies, pairs: &self.wall_pairs, dt };
-        let work = |number: usize, chunk: &mut Chunk<D>, force: &mut [D::V], viscous: &mut [D::V]| {
+        let walls = WallJob::<D, S, W> {
+            bodies: &self.bodies,
+            pairs: &self.wall_pairs,
+            dt,
+        };
+        let work = |number: usize,
+                    chunk: &mut Chunk<D>,
+                    force: &mut [D::V],
+                    viscous: &mut [D::V]| {
             let first = number * CHUNK;
-            let job = Job::<D, S, K, L, T> { lines, list: &chunk.list, first, pairs, kinds, weights, domain, dt, types: PhantomData };
+            let job = Job::<D, S, K, L, T> {
+                lines,
+                list: &chunk.list,
+                first,
+                pairs,
+                kinds,
+                weights,
+                domain,
+                dt,
+                types: PhantomData,
+            };
             lanes::run(path, &job, force, viscous);
             wall_forces::<D, S, K, W, T>(&walls, &lines[first..first + force.len()], chunk, force);
         };
         // An untallied run has no viscous array; an empty slice stands in for each chunk.
         if self.pool.is_some() {
-            let chunks = self.chunks.par_iter_mut().zip(self.force.par_chunks_mut(CHUNK)).enumerate();
+            let chunks = self
+                .chunks
+                .par_iter_mut()
+                .zip(self.force.par_chunks_mut(CHUNK))
+                .enumerate();
             if T::ON {
-                chunks.zip(self.viscous.par_chunks_mut(CHUNK)).for_each(|((n, (c, f)), v)| work(n, c, f, v));
+                chunks
+                    .zip(self.viscous.par_chunks_mut(CHUNK))
+                    .for_each(|((n, (c, f)), v)| work(n, c, f, v));
             } else {
                 chunks.for_each(|(n, (c, f))| work(n, c, f, &mut []));
             }
         } else {
             let mut viscous = self.viscous.chunks_mut(CHUNK);
-            for (n, (c, f)) in self.chunks.iter_mut().zip(self.force.chunks_mut(CHUNK)).enumerate() {
+            for (n, (c, f)) in self
+                .chunks
+                .iter_mut()
+                .zip(self.force.chunks_mut(CHUNK))
+                .enumerate()
+            {
                 work(n, c, f, viscous.next().unwrap_or(&mut []));
             }
         }
@@ -228,17 +286,40 @@ where
     }
 
     fn kick(&mut self, h: f64, drift: Option<Drift>) {
-        let kick = Kick { kinds: self.kinds.all(), h, dt: self.dt, drift, too_fast2: self.too_fast2() };
+        let kick = Kick {
+            kinds: self.kinds.all(),
+            h,
+            dt: self.dt,
+            drift,
+            too_fast2: self.too_fast2(),
+        };
         let n = self.identity.len();
         let (lines, force, viscous) = (&mut self.lines[..n], &self.force, &self.viscous);
-        let part = |number: usize| if T::ON { &viscous[number * CHUNK..((number + 1) * CHUNK).min(n)] } else { &[] };
+        let part = |number: usize| {
+            if T::ON {
+                &viscous[number * CHUNK..((number + 1) * CHUNK).min(n)]
+            } else {
+                &[]
+            }
+        };
         let work = |number: usize, chunk: &mut Chunk<D>, lines: &mut [Line], force: &[D::V]| {
-            kick.run::<D, K, T>(number * CHUNK, chunk, lines, force, part(number));
+            kick.run::<D, K, T>(chunk, lines, force, part(number));
         };
         if self.pool.is_some() {
-            self.chunks.par_iter_mut().zip(lines.par_chunks_mut(CHUNK)).zip(force.par_chunks(CHUNK)).enumerate().for_each(|(n, ((c, l), f))| work(n, c, l, f));
+            self.chunks
+                .par_iter_mut()
+                .zip(lines.par_chunks_mut(CHUNK))
+                .zip(force.par_chunks(CHUNK))
+                .enumerate()
+                .for_each(|(n, ((c, l), f))| work(n, c, l, f));
         } else {
-            for (n, ((c, l), f)) in self.chunks.iter_mut().zip(lines.chunks_mut(CHUNK)).zip(force.chunks(CHUNK)).enumerate() {
+            for (n, ((c, l), f)) in self
+                .chunks
+                .iter_mut()
+                .zip(lines.chunks_mut(CHUNK))
+                .zip(force.chunks(CHUNK))
+                .enumerate()
+            {
                 work(n, c, l, f);
             }
         }
@@ -256,39 +337,91 @@ where
             if sweep > 0 {
                 self.forces();
             }
-            let kick = Kick { kinds: self.kinds.all(), h, dt: self.dt, drift, too_fast2: self.too_fast2() };
+            let kick = Kick {
+                kinds: self.kinds.all(),
+                h,
+                dt: self.dt,
+                drift,
+                too_fast2: self.too_fast2(),
+            };
             let at = |number: usize| number * CHUNK..((number + 1) * CHUNK).min(n);
             let (base, damping) = (&self.base, &self.damping);
-            let chunks = self.chunks.iter_mut().zip(self.lines[..n].chunks_mut(CHUNK)).zip(self.force.chunks(CHUNK));
+            let chunks = self
+                .chunks
+                .iter_mut()
+                .zip(self.lines[..n].chunks_mut(CHUNK))
+                .zip(self.force.chunks(CHUNK));
             for (number, ((chunk, lines), force)) in chunks.enumerate() {
                 kick.sweep::<D, K>(chunk, lines, force, &base[at(number)], &damping[at(number)]);
             }
         }
-        let kick = Kick { kinds: self.kinds.all(), h, dt: self.dt, drift, too_fast2: self.too_fast2() };
+        let kick = Kick {
+            kinds: self.kinds.all(),
+            h,
+            dt: self.dt,
+            drift,
+            too_fast2: self.too_fast2(),
+        };
         let mut viscous = self.viscous.chunks_mut(CHUNK);
-        let chunks = self.chunks.iter_mut().zip(self.lines[..n].chunks_mut(CHUNK)).zip(self.force.chunks_mut(CHUNK)).zip(self.base.chunks(CHUNK));
-        for (number, (((chunk, lines), force), base)) in chunks.enumerate() {
-            kick.finish_solve::<D, K, T>(number * CHUNK, chunk, lines, force, viscous.next().unwrap_or(&mut []), base);
+        let chunks = self
+            .chunks
+            .iter_mut()
+            .zip(self.lines[..n].chunks_mut(CHUNK))
+            .zip(self.force.chunks_mut(CHUNK))
+            .zip(self.base.chunks(CHUNK));
+        for (((chunk, lines), force), base) in chunks {
+            kick.finish_solve::<D, K, T>(
+                chunk,
+                lines,
+                force,
+                viscous.next().unwrap_or(&mut []),
+                base,
+            );
         }
     }
 
     /// Sum of the dampings of each grain's contacts at the present positions.
     fn diagonal_damping(&mut self) {
-        let walls = WallJob::<D, S, W> { bodies: &self.bodies, pairs: &self.wall_pairs, dt: self.dt };
-        for (number, (chunk, damping)) in self.chunks.iter_mut().zip(self.damping.chunks_mut(CHUNK)).enumerate() {
+        let walls = WallJob::<D, S, W> {
+            bodies: &self.bodies,
+            pairs: &self.wall_pairs,
+            dt: self.dt,
+        };
+        for (number, (chunk, damping)) in self
+            .chunks
+            .iter_mut()
+            .zip(self.damping.chunks_mut(CHUNK))
+            .enumerate()
+        {
             let first = number * CHUNK;
             damping.fill(0.0);
             for (slot, j) in chunk.list.iter() {
-                let (pair, touch) = touch_of::<D, S, K, L>(&self.lines, &self.pairs, self.kinds.all().len(), &self.domain, first + slot, j);
+                let (pair, touch) = touch_of::<D, S, K, L>(
+                    &self.lines,
+                    &self.pairs,
+                    self.kinds.all().len(),
+                    &self.domain,
+                    first + slot,
+                    j,
+                );
                 damping[slot] += strongest(&L::linear(pair, &touch, self.dt));
             }
-            wall_damping::<D, S, K, W>(&walls, &self.lines[first..first + damping.len()], chunk, damping);
+            wall_damping::<D, S, K, W>(
+                &walls,
+                &self.lines[first..first + damping.len()],
+                chunk,
+                damping,
+            );
         }
     }
 
     /// Elastic energy of the grains against each body.
     pub(crate) fn stored_in_walls(&self) -> Vec<f64> {
-        let walls = WallJob::<D, S, W> { bodies: &self.bodies, pairs: &self.wall_pairs, dt: self.dt };
+        let walls = WallJob::<D, S, W> {
+            bodies: &self.bodies,
+            pairs: &self.wall_pairs,
+            dt: self.dt,
+        };
         let mut stored = vec![0.0; self.bodies.len()];
         for (number, lines) in self.lines[..self.identity.len()].chunks(CHUNK).enumerate() {
             let mut scratch = Chunk::new(self.bodies.len());
@@ -300,11 +433,25 @@ where
 
     /// Takes a body away; its elastic energy leaves with it and is booked.
     pub fn remove_body(&mut self, number: usize) {
-        if self.bodies.get(number).is_none_or(|b| b.removed_at.is_some()) {
+        if self
+            .bodies
+            .get(number)
+            .is_none_or(|b| b.removed_at.is_some())
+        {
             return;
         }
         self.taken_by_removal += self.stored_in_walls()[number];
         self.bodies[number].removed_at = Some(self.now());
+        self.forces();
+    }
+
+    /// Changes the constants of the law between grains; its range must stay.
+    pub fn set_law(&mut self, law: &L) {
+        let all = self.kinds.all();
+        self.pairs = all
+            .iter()
+            .flat_map(|a| all.iter().map(|b| law.pair(a, b)))
+            .collect();
         self.forces();
     }
 
@@ -325,7 +472,9 @@ where
 
     /// Lists built so far.
     pub fn list_counts(&self) -> (usize, usize) {
-        self.chunks.iter().fold((0, 0), |s, c| (s.0 + c.list.entries(), s.1 + c.list.blocks().len()))
+        self.chunks.iter().fold((0, 0), |s, c| {
+            (s.0 + c.list.entries(), s.1 + c.list.blocks().len())
+        })
     }
 
     /// Lists built so far.
@@ -336,24 +485,43 @@ where
     /// Largest change of a velocity in the last sweep of the last solve, in m/s: how far the solve is
     /// from its end. Zero for explicit schemes.
     pub fn solve_residual(&self) -> f64 {
-        self.chunks.iter().map(|c| c.last_sweep2).fold(0.0, f64::max).sqrt()
+        self.chunks
+            .iter()
+            .map(|c| c.last_sweep2)
+            .fold(0.0, f64::max)
+            .sqrt()
     }
 
-    /// Whether the numbers are still physics.
+    /// Whether the numbers are still physics. The first trouble stays.
     pub fn health(&self) -> Health {
-        let Some(i) = self.chunks.iter().find_map(|c| c.trouble) else { return Health::Fine };
+        self.health.clone()
+    }
+
+    /// Notes a grain in trouble before the lists, and with them the order of grains, change.
+    pub(crate) fn note_trouble(&mut self) {
+        let found = self
+            .chunks
+            .iter()
+            .enumerate()
+            .find_map(|(number, c)| c.trouble.map(|slot| number * CHUNK + slot));
+        let Some(i) = found.filter(|_| self.health.is_fine()) else {
+            return;
+        };
         let line = &self.lines[i];
-        Health::Runaway {
+        self.health = Health::Runaway {
             grain: self.identity[i],
             place: D::to_space(line.position::<D>()).to_array(),
             speed: line.velocity::<D>().length(),
             time: self.now(),
-        }
+        };
     }
 
     /// Bytes held per grain: lines, forces, lists, and the scratch of a list build at its peak.
     pub fn bytes_per_grain(&self) -> f64 {
-        let vectors = self.home.capacity() + self.force.capacity() + self.viscous.capacity() + self.base.capacity();
+        let vectors = self.home.capacity()
+            + self.force.capacity()
+            + self.viscous.capacity()
+            + self.base.capacity();
         let total = self.lines.capacity() * size_of::<Line>()
             + vectors * size_of::<D::V>()
             + self.damping.capacity() * 8
@@ -364,7 +532,9 @@ where
     }
 
     pub(crate) fn lost(&self) -> [f64; 3] {
-        self.chunks.iter().fold([0.0; 3], |s, c| [s[0] + c.lost[0], s[1] + c.lost[1], s[2] + c.lost[2]])
+        self.chunks.iter().fold([0.0; 3], |s, c| {
+            [s[0] + c.lost[0], s[1] + c.lost[1], s[2] + c.lost[2]]
+        })
     }
 
     pub(crate) fn taken(&self) -> f64 {
@@ -377,7 +547,14 @@ where
 }
 
 /// The contact of grains `i` and `j` and the constants of their pair.
-pub(crate) fn touch_of<'p, D, S, K, L>(lines: &[Line], pairs: &'p [L::Pair], kinds: usize, domain: &Domain<D>, i: usize, j: usize) -> (&'p L::Pair, Touch<D, S>)
+pub(crate) fn touch_of<'p, D, S, K, L>(
+    lines: &[Line],
+    pairs: &'p [L::Pair],
+    kinds: usize,
+    domain: &Domain<D>,
+    i: usize,
+    j: usize,
+) -> (&'p L::Pair, Touch<D, S>)
 where
     D: Layout,
     S: SpinState,
@@ -393,7 +570,11 @@ where
         reach: a.0[D::RADIUS] + b.0[D::RADIUS],
         spin: Default::default(),
     };
-    let pair = if K::INDEXED { &pairs[a.kind::<D>() * kinds + b.kind::<D>()] } else { &pairs[0] };
+    let pair = if K::INDEXED {
+        &pairs[a.kind::<D>() * kinds + b.kind::<D>()]
+    } else {
+        &pairs[0]
+    };
     debug_assert!(<L::Memory as Numbers>::N == 0);
     (pair, touch)
 }

@@ -11,8 +11,8 @@
 //! assert!(limit.is_stable(3.9, 0.0) && !limit.is_stable(3.0, 0.6));
 //! ```
 
-mod scheme;
 mod limit;
+mod scheme;
 mod solve;
 
 pub use limit::{Limit, Packing};

@@ -1,6 +1,6 @@
 //! Where a scheme is stable, as functions tested against the schemes as built.
 
-use crate::Scheme;
+use crate::{Scheme, relative_mode_gain};
 use std::f64::consts::PI;
 
 /// The stability limit of a scheme for m ẍ = −k x − η ẋ, with K = kΔt²/m and C = ηΔt/m
@@ -9,13 +9,13 @@ use std::f64::consts::PI;
 /// | scheme | one contact | many contacts: largest eigenvalue below 4 of |
 /// |---|---|---|
 /// | symplectic Euler, Verlet with the old velocity | K + 2C < 4 | M^-½(Δt²K + 2ΔtC)M^-½ |
-/// | Verlet with the averaged velocity | K < 4 | Δt² (M + ½ΔtC … )⁻¹K: never more than the undamped one |
+/// | Verlet with the averaged velocity | K < 4 | as above, less strict |
 /// | dashpot implicit | K < 4 + 2C | as above, less strict still |
 /// | explicit Euler | K < C and C < 2 + K/2 | – |
 ///
 /// The solves run a fixed number of sweeps. Stopped early, a mode is damped as if stiffness and
-/// damping were multiplied by a gain ([`relative_mode_gain`](crate::relative_mode_gain)); an even
-/// number of sweeps never makes the limit stricter than the exact solve.
+/// damping were multiplied by a gain ([`relative_mode_gain`]); an even number of sweeps never makes
+/// the limit stricter than the exact solve, an odd one does, and the limit counts it.
 /// Source: `OSullivan2004` for packings; derivation in the book.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
@@ -39,8 +39,8 @@ impl Limit {
     pub fn used(&self, k: f64, c: f64) -> f64 {
         match self.scheme {
             Scheme::SymplecticEuler | Scheme::VerletOld => (k + 2.0 * c) / 4.0,
-            Scheme::VerletAveraged { .. } => k / 4.0,
-            Scheme::DashpotImplicit { .. } => k / (4.0 + 2.0 * c),
+            Scheme::VerletAveraged { sweeps } => solved(k, c, 0.5, sweeps),
+            Scheme::DashpotImplicit { sweeps } => solved(k, c, 1.0, sweeps),
             Scheme::ExplicitEuler => {
                 let slow = if k == 0.0 { 0.0 } else { k / c };
                 slow.max(c / (2.0 + 0.5 * k))
@@ -64,6 +64,12 @@ impl Limit {
     pub fn undamped_steps_per_period() -> f64 {
         PI
     }
+}
+
+/// Share of the limit with the damping taken at old + θ (new − old) velocity: the solve divides
+/// stiffness and damping by 1 + θC, and multiplies them by its gain if it stops early on the wrong side.
+fn solved(k: f64, c: f64, theta: f64, sweeps: u32) -> f64 {
+    relative_mode_gain(theta * c, sweeps).max(1.0) * (k + 2.0 * c) / (4.0 * (1.0 + theta * c))
 }
 
 /// Arrangements whose largest eigenvalues are known in closed form.
@@ -129,7 +135,11 @@ mod tests {
         let ((a, b), (cc, d)) = (step(1.0, 0.0), step(0.0, 1.0));
         let (trace, det) = (a + d, a * d - b * cc);
         let disc = trace * trace / 4.0 - det;
-        if disc < 0.0 { det.sqrt() } else { (trace / 2.0).abs() + disc.sqrt() }
+        if disc < 0.0 {
+            det.sqrt()
+        } else {
+            (trace / 2.0).abs() + disc.sqrt()
+        }
     }
 
     #[test]

@@ -68,7 +68,11 @@ impl Scheme {
 
     /// Share of Δt of the kick that follows the forces (and of the one before the drift, if there is one).
     pub fn kick(self) -> f64 {
-        if self.drift() == Drift::BeforeForces { 0.5 } else { 1.0 }
+        if self.drift() == Drift::BeforeForces {
+            0.5
+        } else {
+            1.0
+        }
     }
 
     /// Sweeps of the linear solve; 0 for the explicit schemes.

@@ -44,13 +44,30 @@ pub trait Constants: Sized {
 
 impl Constants for crate::Kind {
     fn constants(&self) -> Vec<(&'static str, Quantity, f64)> {
-        vec![("diameter", Quantity::Length, self.diameter()), ("mass", Quantity::Mass, self.mass), ("weight", Quantity::Mass, self.weight)]
+        vec![
+            ("diameter", Quantity::Length, self.diameter()),
+            ("mass", Quantity::Mass, self.mass),
+            ("weight", Quantity::Mass, self.weight),
+        ]
     }
 
     /// Inertia goes with mass × length².
     fn mapped(&self, mut f: impl FnMut(Quantity, f64) -> f64) -> Self {
-        let (radius, mass, weight) = (0.5 * f(Quantity::Length, self.diameter()), f(Quantity::Mass, self.mass), f(Quantity::Mass, self.weight));
-        let inertia = if self.inertia.is_finite() { self.inertia * (mass / self.mass) * (radius / self.radius).powi(2) } else { self.inertia };
-        Self { radius, mass, inertia, weight }
+        let (radius, mass, weight) = (
+            0.5 * f(Quantity::Length, self.diameter()),
+            f(Quantity::Mass, self.mass),
+            f(Quantity::Mass, self.weight),
+        );
+        let inertia = if self.inertia.is_finite() {
+            self.inertia * (mass / self.mass) * (radius / self.radius).powi(2)
+        } else {
+            self.inertia
+        };
+        Self {
+            radius,
+            mass,
+            inertia,
+            weight,
+        }
     }
 }

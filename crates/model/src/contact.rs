@@ -48,7 +48,12 @@ pub struct Push<D: Dim, S: SpinState> {
 impl<D: Dim, S: SpinState> Push<D, S> {
     /// No force.
     pub fn none() -> Self {
-        Self { elastic: D::V::ZERO, viscous: D::V::ZERO, slip: D::V::ZERO, torque: Default::default() }
+        Self {
+            elastic: D::V::ZERO,
+            viscous: D::V::ZERO,
+            slip: D::V::ZERO,
+            torque: Default::default(),
+        }
     }
 
     /// The whole force in N.
@@ -92,7 +97,12 @@ pub trait ContactLaw<D: Dim, S: SpinState>: Send + Sync {
     /// Distance of the centres in m from which on the force is zero.
     fn range(pair: &Self::Pair) -> f64;
     /// Force on grain i; `dt` is the step in s.
-    fn force(pair: &Self::Pair, touch: &Touch<D, S>, memory: &mut Self::Memory, dt: f64) -> Push<D, S>;
+    fn force(
+        pair: &Self::Pair,
+        touch: &Touch<D, S>,
+        memory: &mut Self::Memory,
+        dt: f64,
+    ) -> Push<D, S>;
     /// Elastic energy stored in the contact in J.
     fn stored(pair: &Self::Pair, touch: &Touch<D, S>, memory: &Self::Memory) -> f64;
     /// Stiffness and damping at this state: for limits of the step and for the implicit dashpot.

@@ -140,7 +140,9 @@ pub struct Domain<D: Dim> {
 impl<D: Dim> Domain<D> {
     /// Open in every direction.
     pub fn open() -> Self {
-        Self { period: D::V::from_axes(|_| f64::INFINITY) }
+        Self {
+            period: D::V::from_axes(|_| f64::INFINITY),
+        }
     }
 
     /// True if the axis repeats.

@@ -29,12 +29,22 @@ impl Kind {
 
     /// A solid sphere of given mass in kg.
     pub fn with_mass(diameter: f64, mass: f64) -> Self {
-        Self { radius: 0.5 * diameter, mass, inertia: mass * diameter * diameter / 10.0, weight: mass }
+        Self {
+            radius: 0.5 * diameter,
+            mass,
+            inertia: mass * diameter * diameter / 10.0,
+            weight: mass,
+        }
     }
 
     /// A body that no contact moves: infinite mass. Walls pair with grains through this kind.
     pub fn immovable() -> Self {
-        Self { radius: 0.0, mass: f64::INFINITY, inertia: f64::INFINITY, weight: 0.0 }
+        Self {
+            radius: 0.0,
+            mass: f64::INFINITY,
+            inertia: f64::INFINITY,
+            weight: 0.0,
+        }
     }
 
     /// Diameter in m.

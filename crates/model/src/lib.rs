@@ -13,12 +13,12 @@
 //! assert_eq!(up.axis(2), 1.0);
 //! ```
 
-mod dim;
-mod spin;
-mod numbers;
-mod kind;
 mod constants;
 mod contact;
+mod dim;
+mod kind;
+mod numbers;
+mod spin;
 mod surface;
 mod view;
 

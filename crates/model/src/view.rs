@@ -26,7 +26,11 @@ pub struct Energies {
 impl Energies {
     /// What the run still holds plus what it has lost: constant if the books close.
     pub fn total(&self) -> f64 {
-        self.held() + self.lost_damping + self.lost_wall_damping + self.lost_wall_friction + self.taken_by_removal
+        self.held()
+            + self.lost_damping
+            + self.lost_wall_damping
+            + self.lost_wall_friction
+            + self.taken_by_removal
     }
 
     /// Kinetic, gravitational and elastic energy.
@@ -114,7 +118,12 @@ pub struct Reading {
 impl Reading {
     /// A value without a known uncertainty.
     pub fn new(name: &'static str, value: f64, unit: &'static str) -> Self {
-        Self { name, value, uncertainty: None, unit }
+        Self {
+            name,
+            value,
+            uncertainty: None,
+            unit,
+        }
     }
 
     /// With a standard deviation.

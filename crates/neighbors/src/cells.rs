@@ -52,9 +52,20 @@ impl<D: Dim> CellGrid<D> {
         let low = D::V::from_axes(|a| low[a]);
         let per_width = D::V::from_axes(|a| {
             let length = high[a] - low.axis(a);
-            if length > 0.0 { count[a] as f64 / length } else { 0.0 }
+            if length > 0.0 {
+                count[a] as f64 / length
+            } else {
+                0.0
+            }
         });
-        let mut grid = Self { low, per_width, count, periodic, starts: Vec::new(), order: vec![0; n] };
+        let mut grid = Self {
+            low,
+            per_width,
+            count,
+            periodic,
+            starts: Vec::new(),
+            order: vec![0; n],
+        };
         let cells = count.iter().product::<usize>();
         let mut starts = vec![0u32; cells + 1];
         for i in 0..n {
@@ -77,7 +88,8 @@ impl<D: Dim> CellGrid<D> {
         let mut cell = [0; 3];
         for (a, c) in cell.iter_mut().enumerate().take(D::V::AXES) {
             // Saturating: NaN and negative rounding give cell 0.
-            *c = (((x.axis(a) - self.low.axis(a)) * self.per_width.axis(a)) as usize).min(self.count[a] - 1);
+            *c = (((x.axis(a) - self.low.axis(a)) * self.per_width.axis(a)) as usize)
+                .min(self.count[a] - 1);
         }
         cell
     }

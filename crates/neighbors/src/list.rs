@@ -57,7 +57,11 @@ impl ChunkList {
             }
         }
         if self.blocks.len() % 2 == 1 {
-            self.push(self.owners.last().map_or(0, |&o| o as usize), [dummy; LANES], 0);
+            self.push(
+                self.owners.last().map_or(0, |&o| o as usize),
+                [dummy; LANES],
+                0,
+            );
         }
         // Keep a little room for the next build, not the doubling of a growing vector.
         if self.blocks.capacity() > self.blocks.len() + self.blocks.len() / 16 + 8 {
@@ -91,7 +95,12 @@ impl ChunkList {
         self.owners
             .iter()
             .zip(&self.blocks)
-            .flat_map(move |(&slot, block)| block.iter().filter(move |&&j| j != dummy).map(move |&j| (slot as usize, j as usize)))
+            .flat_map(move |(&slot, block)| {
+                block
+                    .iter()
+                    .filter(move |&&j| j != dummy)
+                    .map(move |&j| (slot as usize, j as usize))
+            })
     }
 
     /// Entries without padding.
@@ -113,18 +122,32 @@ mod tests {
     use std::collections::BTreeSet;
     use tsubu_model::{Plane, Space};
 
-    fn lists_are_all_pairs<D: Dim>(points: Vec<D::V>, domain: Domain<D>, cut: f64) -> Result<(), TestCaseError> {
+    fn lists_are_all_pairs<D: Dim>(
+        points: Vec<D::V>,
+        domain: Domain<D>,
+        cut: f64,
+    ) -> Result<(), TestCaseError> {
         let n = points.len();
         let wrapped: Vec<D::V> = points.iter().map(|&p| domain.wrap(p)).collect();
         let grid = CellGrid::new(&domain, n, |i| wrapped[i], cut);
         let sorted: Vec<D::V> = grid.order.iter().map(|&o| wrapped[o as usize]).collect();
-        prop_assert_eq!(grid.order.iter().copied().collect::<BTreeSet<_>>().len(), n, "the order is a permutation");
+        prop_assert_eq!(
+            grid.order.iter().copied().collect::<BTreeSet<_>>().len(),
+            n,
+            "the order is a permutation"
+        );
         let mut list = ChunkList::default();
         list.build(&grid, &domain, 0..n, |i| sorted[i], cut, n as u32);
         for i in 0..n {
-            let found: Vec<u32> = list.iter().filter(|e| e.0 == i).map(|e| e.1 as u32).collect();
+            let found: Vec<u32> = list
+                .iter()
+                .filter(|e| e.0 == i)
+                .map(|e| e.1 as u32)
+                .collect();
             let expected: BTreeSet<u32> = (0..n)
-                .filter(|&j| j != i && domain.nearest(sorted[i] - sorted[j]).length_squared() < cut * cut)
+                .filter(|&j| {
+                    j != i && domain.nearest(sorted[i] - sorted[j]).length_squared() < cut * cut
+                })
                 .map(|j| j as u32)
                 .collect();
             prop_assert_eq!(found.len(), expected.len(), "each partner once");

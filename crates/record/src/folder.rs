@@ -78,7 +78,11 @@ impl RunFolder {
         let path = self.path(name);
         match std::fs::create_dir_all(&path) {
             Ok(()) => Ok(path),
-            Err(cause) => Err(RecordError::machine("the folder could not be made", &path, cause)),
+            Err(cause) => Err(RecordError::machine(
+                "the folder could not be made",
+                &path,
+                cause,
+            )),
         }
     }
 

@@ -227,6 +227,7 @@ pub(crate) struct RawStill {
     pub kinetic_energy: Number,
     pub for_at_least: Quantity<Time>,
     pub at_most: Quantity<Time>,
+    pub damping: Option<Number>,
 }
 
 #[derive(Deserialize)]

@@ -59,8 +59,8 @@ impl Scene {
             let at_most = quantity(Dimension::Time, still.at_most);
             writeln!(
                 out,
-                "    still: (kinetic_energy: {:?}, for_at_least: {for_at_least}, at_most: {at_most}),",
-                still.kinetic_energy
+                "    still: (kinetic_energy: {:?}, for_at_least: {for_at_least}, at_most: {at_most}, damping: {:?}),",
+                still.kinetic_energy, still.damping
             )?;
         }
         writeln!(out, "    time: (")?;

@@ -268,6 +268,9 @@ pub struct Still {
     pub for_at_least: f64,
     /// The run fails when they are not still by this time from the start, s.
     pub at_most: f64,
+    /// Share of the grains' damping while they settle, in (0, 1]: creep to rest is faster with less.
+    /// The full damping acts from the removal of the wall on.
+    pub damping: f64,
 }
 
 /// Time.

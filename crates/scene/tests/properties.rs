@@ -227,6 +227,7 @@ fn scene() -> impl Strategy<Value = Scene> {
                     kinetic_energy: 1e-4,
                     for_at_least: 0.01,
                     at_most: gravity + 0.01,
+                    damping: 0.5,
                 });
                 let (space, domain) = (Space::Space, Domain::default());
                 Scene {

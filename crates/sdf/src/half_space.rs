@@ -13,7 +13,10 @@ pub struct HalfSpace<D: Dim> {
 impl<D: Dim> HalfSpace<D> {
     /// A wall through `point` (m) whose outer side is where `outward` points; any length but zero.
     pub fn new(point: D::V, outward: D::V) -> Self {
-        Self { point, outward: outward * (1.0 / outward.length()) }
+        Self {
+            point,
+            outward: outward * (1.0 / outward.length()),
+        }
     }
 }
 
@@ -26,7 +29,12 @@ impl<D: Dim> Surface<D> for HalfSpace<D> {
         for (of, (&x, &reach)) in x.iter().zip(reach).enumerate() {
             let distance = self.lower_bound(x);
             if distance < reach {
-                out.hits.push(Hit { of: of as u32, distance, normal: self.outward, feature: 0 });
+                out.hits.push(Hit {
+                    of: of as u32,
+                    distance,
+                    normal: self.outward,
+                    feature: 0,
+                });
             }
         }
     }
@@ -43,7 +51,12 @@ impl<D: Dim> Surface<D> for HalfSpace<D> {
             x[c] = if t { high[c] } else { low[c] };
             x
         };
-        let ring = [corner(false, false), corner(true, false), corner(true, true), corner(false, true)];
+        let ring = [
+            corner(false, false),
+            corner(true, false),
+            corner(true, true),
+            corner(false, true),
+        ];
         (0..4).map(|k| [ring[k], ring[(k + 1) % 4]]).collect()
     }
 }

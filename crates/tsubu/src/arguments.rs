@@ -22,10 +22,14 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Run a scene and write its results, figures and an animation into a folder
-    #[command(after_help = "Example:  tsubu run scenarios/angle_of_repose.ron --set grains.coarse=3 --until \"2 s\"")]
+    #[command(
+        after_help = "Example:  tsubu run scenarios/angle_of_repose.ron --set grains.coarse=3 --until \"2 s\""
+    )]
     Run(RunWish),
     /// Say what a scene models and what not, its step against the limits, and what it will cost
-    #[command(after_help = "Example:  tsubu check scenarios/angle_of_repose.ron --set grains.coarse=1")]
+    #[command(
+        after_help = "Example:  tsubu check scenarios/angle_of_repose.ron --set grains.coarse=1"
+    )]
     Check(CheckWish),
     /// List the shipped scenes
     Scenes,
@@ -88,6 +92,15 @@ fn lanes(text: &str) -> Result<LanesWish, String> {
     if text == "auto" {
         return Ok(LanesWish(None));
     }
-    let lanes = Lanes::ALL.into_iter().find(|l| l.name() == text).ok_or("expected auto, portable, avx2 or avx512")?;
-    if lanes.is_here() { Ok(LanesWish(Some(lanes))) } else { Err(format!("this machine has no {text}; auto takes the widest it has")) }
+    let lanes = Lanes::ALL
+        .into_iter()
+        .find(|l| l.name() == text)
+        .ok_or("expected auto, portable, avx2 or avx512")?;
+    if lanes.is_here() {
+        Ok(LanesWish(Some(lanes)))
+    } else {
+        Err(format!(
+            "this machine has no {text}; auto takes the widest it has"
+        ))
+    }
 }

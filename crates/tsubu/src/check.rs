@@ -13,22 +13,49 @@ const TRIAL: Duration = Duration::from_millis(700);
 pub fn check(wish: &CheckWish) -> Result<u8, Trouble> {
     let checked = read(&wish.scene)?;
     // The limits are shown even where they are broken; the refusal comes at the end.
-    let built = build(&checked, &Choices { allow_unstable: true, ..choices(&wish.scene) })?;
+    let built = build(
+        &checked,
+        &Choices {
+            allow_unstable: true,
+            ..choices(&wish.scene)
+        },
+    )?;
     let (mut run, plan) = (built.simulation, built.plan);
     let c = &plan.constants;
     println!("{}", checked.scene.title);
     println!("\nModelled");
     plan.modelled.iter().for_each(|line| println!("  {line}"));
     println!("Not modelled");
-    plan.not_modelled.iter().for_each(|line| println!("  {line}"));
+    plan.not_modelled
+        .iter()
+        .for_each(|line| println!("  {line}"));
     println!("\nStep");
-    println!("  {:.4e} s = {:.1} steps per contact period of {:.4e} s, {}", c.dt, c.period / c.dt, c.period, c.scheme.name());
-    println!("  K = k dt^2/m = {:.4}, C = gamma dt/m = {:.4}", c.k(), c.c());
+    println!(
+        "  {:.4e} s = {:.1} steps per contact period of {:.4e} s, {}",
+        c.dt,
+        c.period / c.dt,
+        c.period,
+        c.scheme.name()
+    );
+    println!(
+        "  K = k dt^2/m = {:.4}, C = gamma dt/m = {:.4}",
+        c.k(),
+        c.c()
+    );
     for limit in &plan.limits {
-        println!("  {:>6.1} % of the limit for {}", 100.0 * limit.used, limit.name);
+        println!(
+            "  {:>6.1} % of the limit for {}",
+            100.0 * limit.used,
+            limit.name
+        );
     }
     println!("\nSize");
-    println!("  {} grains, {:.0} bytes each, lists included: {:.1} MB", plan.grains, run.bytes_per_grain(), plan.grains as f64 * run.bytes_per_grain() / 1e6);
+    println!(
+        "  {} grains, {:.0} bytes each, lists included: {:.1} MB",
+        plan.grains,
+        run.bytes_per_grain(),
+        plan.grains as f64 * run.bytes_per_grain() / 1e6
+    );
     println!("  {} thread(s), {} vectors", plan.threads, plan.lanes);
     let stable = plan.limits.iter().all(|l| l.used < 1.0);
     if stable || wish.scene.allow_unstable {
@@ -38,10 +65,22 @@ pub fn check(wish: &CheckWish) -> Result<u8, Trouble> {
         }
         let rate = plan.grains as f64 * steps as f64 / start.elapsed().as_secs_f64();
         let seconds = plan.grains as f64 * plan.steps as f64 / rate.max(1.0);
-        let settling = if checked.scene.waits_for_stillness() { ", and the settling before" } else { "" };
+        let settling = if checked.scene.waits_for_stillness() {
+            ", and the settling before"
+        } else {
+            ""
+        };
         println!("\nCost");
-        println!("  {} steps{settling}: {:.2e} grain-steps", plan.steps, plan.grains as f64 * plan.steps as f64);
-        println!("  about {} at {:.1} million grain-steps/s, tried just now on the first {steps} steps", duration(seconds), rate / 1e6);
+        println!(
+            "  {} steps{settling}: {:.2e} grain-steps",
+            plan.steps,
+            plan.grains as f64 * plan.steps as f64
+        );
+        println!(
+            "  about {} at {:.1} million grain-steps/s, tried just now on the first {steps} steps",
+            duration(seconds),
+            rate / 1e6
+        );
     }
     if !wish.scene.allow_unstable && !stable {
         build(&checked, &choices(&wish.scene))?;

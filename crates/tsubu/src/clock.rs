@@ -19,8 +19,13 @@ impl Clock {
     /// From the scene's intervals and the length of the run.
     pub fn of(output: &Output, plan: &Plan) -> Self {
         let steps = |seconds: f64| ((seconds / plan.constants.dt).round() as u64).max(1);
-        let row = output.every.map_or_else(|| plan.steps.div_ceil(ROWS).max(1), steps);
-        Self { row, frame: output.frames_every.map_or(row, steps) }
+        let row = output
+            .every
+            .map_or_else(|| plan.steps.div_ceil(ROWS).max(1), steps);
+        Self {
+            row,
+            frame: output.frames_every.map_or(row, steps),
+        }
     }
 
     /// Steps from `now` to the next row or frame.

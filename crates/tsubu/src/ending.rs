@@ -26,13 +26,26 @@ impl Spent {
 }
 
 /// Writes `summary.json`.
-pub fn summary(folder: &RunFolder, scene: &Scene, plan: &Plan, run: &dyn Simulation, rows: &Rows, spent: Spent, ended: &str) -> Result<(), Trouble> {
+pub fn summary(
+    folder: &RunFolder,
+    scene: &Scene,
+    plan: &Plan,
+    run: &dyn Simulation,
+    rows: &Rows,
+    spent: Spent,
+    ended: &str,
+) -> Result<(), Trouble> {
     let mut summary = Summary::new();
     summary.text("title", &scene.title);
     summary.text("version", env!("CARGO_PKG_VERSION"));
     summary.text("ended", ended);
     for reading in run.report() {
-        summary.measured(reading.name, reading.value, reading.uncertainty, reading.unit);
+        summary.measured(
+            reading.name,
+            reading.value,
+            reading.uncertainty,
+            reading.unit,
+        );
     }
     summary.plain("time", run.time(), "s");
     if let Some(released) = run.released_at() {
@@ -56,17 +69,31 @@ pub fn summary(folder: &RunFolder, scene: &Scene, plan: &Plan, run: &dyn Simulat
 }
 
 /// The closing words of a run that reached its end.
-pub fn words(run: &dyn Simulation, plan: &Plan, spent: Spent, folder: &Path, film: Option<&PathBuf>, figures: &[PathBuf], scene_file: &Path) -> String {
+pub fn words(
+    run: &dyn Simulation,
+    plan: &Plan,
+    spent: Spent,
+    folder: &Path,
+    film: Option<&PathBuf>,
+    figures: &[PathBuf],
+    scene_file: &Path,
+) -> String {
     let report = run.report();
     let find = |name: &str| report.iter().find(|r| r.name == name);
     let result = match (find("angle_of_repose"), run.released_at()) {
         (Some(angle), Some(released)) if angle.value.is_finite() => format!(
             "Angle of repose {:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
             angle.value,
-            angle.uncertainty.map_or(String::new(), |u| format!(" ± {u:.1}")),
+            angle
+                .uncertainty
+                .map_or(String::new(), |u| format!(" ± {u:.1}")),
             run.time() - released
         ),
-        _ => format!("{} grains, {:.4} s of simulated time.", run.grains(), run.time()),
+        _ => format!(
+            "{} grains, {:.4} s of simulated time.",
+            run.grains(),
+            run.time()
+        ),
     };
     let mut text = format!(
         "{result}\n{:.1} s of wall time, {:.1} million grain-steps/s on {} thread{}; results in {}",
@@ -82,7 +109,11 @@ pub fn words(run: &dyn Simulation, plan: &Plan, spent: Spent, folder: &Path, fil
     if let Some(figure) = figures.first() {
         text += &format!("\n  figure     {}", figure.display());
     }
-    text += &format!("\nNext, try:  tsubu run {} --set grains.coarse={}", scene_file.display(), if plan.constants.lambda > 4.0 { 2 } else { 3 });
+    text += &format!(
+        "\nNext, try:  tsubu run {} --set grains.coarse={}",
+        scene_file.display(),
+        if plan.constants.lambda > 4.0 { 2 } else { 3 }
+    );
     text
 }
 
@@ -96,14 +127,32 @@ pub fn failure(stop: &Stop, plan: &Plan) -> String {
     let place = |p: &[f64; 3]| format!("({:.6}, {:.6}, {:.6}) m", p[0], p[1], p[2]);
     match stop {
         Stop::Over => "the run is over".to_owned(),
-        Stop::NeverStill { time, agitation, asked } => format!(
+        Stop::NeverStill {
+            time,
+            agitation,
+            asked,
+        } => format!(
             "the grains were not still after {time:.3} s: kinetic energy per grain is {agitation:.2e} of m g d, the scene asks for {asked:.2e}\n\
              help: raise still.kinetic_energy or still.at_most"
         ),
-        Stop::Trouble(Health::Runaway { grain, place: at, speed, time }) => {
-            format!("grain {grain} ran away at t = {time:.6} s, at {}: its speed is {speed:.3e} m/s\n{smaller}", place(at))
+        Stop::Trouble(Health::Runaway {
+            grain,
+            place: at,
+            speed,
+            time,
+        }) => {
+            format!(
+                "grain {grain} ran away at t = {time:.6} s, at {}: its speed is {speed:.3e} m/s\n{smaller}",
+                place(at)
+            )
         }
-        Stop::Trouble(Health::DeepOverlap { grain, partner, place: at, share, time }) => format!(
+        Stop::Trouble(Health::DeepOverlap {
+            grain,
+            partner,
+            place: at,
+            share,
+            time,
+        }) => format!(
             "grains {grain} and {partner} overlap by {:.0} % of their diameter at t = {time:.6} s, at {}: the law is not made for that\n\
              help: soften less (grains.soften), or lower the speed of impact",
             100.0 * share,

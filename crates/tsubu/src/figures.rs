@@ -8,14 +8,22 @@ use tsubu::picture::Figure;
 use tsubu::record::RunFolder;
 
 /// Rows drawn together: file name, title, axis label, columns and their labels.
-type Together = (&'static str, &'static str, &'static str, &'static [(&'static str, &'static str)]);
+type Together = (
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static [(&'static str, &'static str)],
+);
 
 const FROM_ROWS: [Together; 3] = [
     (
         "angle",
         "Angle of the heap",
         "angle (deg)",
-        &[("angle_flank", "line over 15–85 % of the flank"), ("angle_runout", "height over run-out")],
+        &[
+            ("angle_flank", "line over 15–85 % of the flank"),
+            ("angle_runout", "height over run-out"),
+        ],
     ),
     (
         "energies",
@@ -30,11 +38,21 @@ const FROM_ROWS: [Together; 3] = [
             ("total", "sum"),
         ],
     ),
-    ("coordination", "Contacts per grain", "coordination number", &[("coordination", "all grains")]),
+    (
+        "coordination",
+        "Contacts per grain",
+        "coordination number",
+        &[("coordination", "all grains")],
+    ),
 ];
 
 /// Draws what there is to draw; returns the files (SVG).
-pub fn draw(folder: &RunFolder, run: &dyn Simulation, rows: &Rows, command: &str) -> Result<Vec<PathBuf>, Trouble> {
+pub fn draw(
+    folder: &RunFolder,
+    run: &dyn Simulation,
+    rows: &Rows,
+    command: &str,
+) -> Result<Vec<PathBuf>, Trouble> {
     let mut files = Vec::new();
     let curves = run.curves();
     let mut names: Vec<&str> = curves.iter().map(|c| c.figure).collect();
@@ -49,11 +67,26 @@ pub fn draw(folder: &RunFolder, run: &dyn Simulation, rows: &Rows, command: &str
         files.push(save(folder, name, &figure)?);
     }
     let zero = run.released_at().unwrap_or(0.0);
-    let axis = if run.released_at().is_some() { "time after release (s)" } else { "time (s)" };
-    let time: Vec<f64> = rows.column("time").unwrap_or(&[]).iter().map(|t| t - zero).collect();
+    let axis = if run.released_at().is_some() {
+        "time after release (s)"
+    } else {
+        "time (s)"
+    };
+    let time: Vec<f64> = rows
+        .column("time")
+        .unwrap_or(&[])
+        .iter()
+        .map(|t| t - zero)
+        .collect();
     for (name, title, label, columns) in FROM_ROWS {
-        let there: Vec<_> = columns.iter().filter_map(|(column, label)| Some((rows.column(column)?, label))).collect();
-        if there.iter().all(|(values, _)| values.iter().all(|v| !v.is_finite())) {
+        let there: Vec<_> = columns
+            .iter()
+            .filter_map(|(column, label)| Some((rows.column(column)?, label)))
+            .collect();
+        if there
+            .iter()
+            .all(|(values, _)| values.iter().all(|v| !v.is_finite()))
+        {
             continue;
         }
         let mut figure = Figure::new(title, axis, label).caption(command);
@@ -72,5 +105,7 @@ fn save(folder: &RunFolder, name: &str, figure: &Figure) -> Result<PathBuf, Trou
 
 fn capital(name: &str) -> String {
     let mut letters = name.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }

@@ -36,14 +36,29 @@ pub fn write_frame(frames: &mut FrameWriter, snapshot: &Snapshot) -> Result<(), 
     let velocity: Vec<[f32; 3]> = snapshot.grains.iter().map(|g| g.velocity).collect();
     let radius: Vec<f32> = snapshot.grains.iter().map(|g| g.radius).collect();
     let id: Vec<u32> = snapshot.grains.iter().map(|g| g.identity).collect();
-    let columns = [("velocity", Column::Vector(&velocity)), ("radius", Column::Scalar(&radius)), ("id", Column::Id(&id))];
-    Ok(frames.write(snapshot.time, &Frame { points: &points, columns: &columns })?)
+    let columns = [
+        ("velocity", Column::Vector(&velocity)),
+        ("radius", Column::Scalar(&radius)),
+        ("id", Column::Id(&id)),
+    ];
+    Ok(frames.write(
+        snapshot.time,
+        &Frame {
+            points: &points,
+            columns: &columns,
+        },
+    )?)
 }
 
 impl Film {
     /// Nothing yet.
     pub fn new() -> Self {
-        Self { shots: Vec::new(), radius: 0.0, keep: 1, seen: 0 }
+        Self {
+            shots: Vec::new(),
+            radius: 0.0,
+            keep: 1,
+            seen: 0,
+        }
     }
 
     /// Keeps a snapshot, or not, so that the whole stays within bounds and evenly spaced.
@@ -58,10 +73,15 @@ impl Film {
         self.shots.push(Shot {
             time: snapshot.time,
             centres: snapshot.grains.iter().map(|g| g.position).collect(),
-            speeds: snapshot.grains.iter().map(|g| glam::Vec3::from(g.velocity).length()).collect(),
+            speeds: snapshot
+                .grains
+                .iter()
+                .map(|g| glam::Vec3::from(g.velocity).length())
+                .collect(),
             walls: run.outlines(-far, far),
         });
-        if self.shots.len() > MOST_PICTURES || self.shots.len() * snapshot.grains.len() > MOST_KEPT {
+        if self.shots.len() > MOST_PICTURES || self.shots.len() * snapshot.grains.len() > MOST_KEPT
+        {
             let mut number = 0;
             self.shots.retain(|_| {
                 number += 1;
@@ -72,7 +92,11 @@ impl Film {
     }
 
     /// Draws the animation and a poster of the last moment; `None` if there was nothing to show.
-    pub fn draw(&self, folder: &RunFolder, zero: Option<f64>) -> Result<Option<(PathBuf, PathBuf)>, Trouble> {
+    pub fn draw(
+        &self,
+        folder: &RunFolder,
+        zero: Option<f64>,
+    ) -> Result<Option<(PathBuf, PathBuf)>, Trouble> {
         if self.shots.iter().all(|s| s.centres.is_empty()) {
             return Ok(None);
         }
@@ -80,7 +104,8 @@ impl Film {
         let fastest = self.usual_top_speed();
         let size = high - low;
         let width = 960usize;
-        let height = ((width as f64 * (size.z / size.x.max(1e-12))) as usize + 90).clamp(240, 900) / 2 * 2;
+        let height =
+            ((width as f64 * (size.z / size.x.max(1e-12))) as usize + 90).clamp(240, 900) / 2 * 2;
         let path = folder.path("animation.gif");
         let mut animation = Animation::create(&path, width, height, Duration::from_millis(60))?;
         let mut last = None;
@@ -97,7 +122,15 @@ impl Film {
         Ok(Some((path, poster)))
     }
 
-    fn picture(&self, shot: &Shot, low: DVec3, high: DVec3, fastest: f32, size: (usize, usize), zero: Option<f64>) -> Image {
+    fn picture(
+        &self,
+        shot: &Shot,
+        low: DVec3,
+        high: DVec3,
+        fastest: f32,
+        size: (usize, usize),
+        zero: Option<f64>,
+    ) -> Image {
         let single = |x: DVec3| x.as_vec3().to_array();
         // Walls are drawn as the lines in which they cross the picture's box.
         let clip = |x: DVec3| x.clamp(low, high);
@@ -106,15 +139,30 @@ impl Film {
             .iter()
             .map(|[a, b]| [clip(*a), clip(*b)])
             .filter(|[a, b]| a != b)
-            .map(|[a, b]| Segment { from: single(a), to: single(b) })
+            .map(|[a, b]| Segment {
+                from: single(a),
+                to: single(b),
+            })
             .collect();
-        let scene = Scene3 { centres: &shot.centres, radii: Radii::Same(self.radius), values: &shot.speeds, quads: &[], segments: &segments };
+        let scene = Scene3 {
+            centres: &shot.centres,
+            radii: Radii::Same(self.radius),
+            values: &shot.speeds,
+            quads: &[],
+            segments: &segments,
+        };
         let time = match zero {
             Some(zero) if shot.time >= zero => format!("{:.2} s after release", shot.time - zero),
             Some(_) => "settling".to_owned(),
             None => format!("{:.4} s", shot.time),
         };
-        let view = View { width: size.0, height: size.1, range: (0.0, fastest), label: "speed (m/s)", time: &time };
+        let view = View {
+            width: size.0,
+            height: size.1,
+            range: (0.0, fastest),
+            label: "speed (m/s)",
+            time: &time,
+        };
         scene.draw(&Camera::front(single(low), single(high)), &view)
     }
 
@@ -123,7 +171,12 @@ impl Film {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for shot in &self.shots {
             for axis in 0..3 {
-                let mut values: Vec<f32> = shot.centres.iter().map(|c| c[axis]).filter(|v| v.is_finite()).collect();
+                let mut values: Vec<f32> = shot
+                    .centres
+                    .iter()
+                    .map(|c| c[axis])
+                    .filter(|v| v.is_finite())
+                    .collect();
                 if values.is_empty() {
                     continue;
                 }
@@ -140,7 +193,12 @@ impl Film {
     /// 95 % of grains are slower than this in the fastest picture.
     fn usual_top_speed(&self) -> f32 {
         let top = |shot: &Shot| {
-            let mut speeds: Vec<f32> = shot.speeds.iter().copied().filter(|v| v.is_finite()).collect();
+            let mut speeds: Vec<f32> = shot
+                .speeds
+                .iter()
+                .copied()
+                .filter(|v| v.is_finite())
+                .collect();
             speeds.sort_unstable_by(f32::total_cmp);
             speeds.get(speeds.len() * 95 / 100).copied().unwrap_or(0.0)
         };

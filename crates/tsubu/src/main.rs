@@ -1,16 +1,16 @@
 //! The command `tsubu`.
 
 mod arguments;
-mod trouble;
-mod shipped;
 mod check;
-mod run;
 mod clock;
+mod ending;
+mod figures;
+mod film;
 mod progress;
 mod rows;
-mod film;
-mod figures;
-mod ending;
+mod run;
+mod shipped;
+mod trouble;
 
 use clap::Parser;
 use std::process::ExitCode;

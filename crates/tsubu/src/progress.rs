@@ -25,20 +25,32 @@ impl Progress {
             }
             bar
         });
-        Self { bar, start: Instant::now(), last_line: Instant::now() }
+        Self {
+            bar,
+            start: Instant::now(),
+            last_line: Instant::now(),
+        }
     }
 
     /// After a batch of steps that took `stepping` seconds so far.
     pub fn show(&mut self, run: &dyn Simulation, stepping: Duration) {
-        let rate = run.grains() as f64 * run.steps() as f64 / stepping.as_secs_f64().max(1e-9) / 1e6;
+        let rate =
+            run.grains() as f64 * run.steps() as f64 / stepping.as_secs_f64().max(1e-9) / 1e6;
         let (share, phase) = match run.last_step() {
             Some(last) => {
-                let left = last.saturating_sub(run.steps()) as f64 / run.steps().max(1) as f64 * self.start.elapsed().as_secs_f64();
-                (run.steps() as f64 / last.max(1) as f64, format!("{left:.0} s left"))
+                let left = last.saturating_sub(run.steps()) as f64 / run.steps().max(1) as f64
+                    * self.start.elapsed().as_secs_f64();
+                (
+                    run.steps() as f64 / last.max(1) as f64,
+                    format!("{left:.0} s left"),
+                )
             }
             None => (0.0, format!("settling, agitation {:.1e}", run.agitation())),
         };
-        let text = format!("t = {:.4} s  {rate:.1} M grain-steps/s  {phase}", run.time());
+        let text = format!(
+            "t = {:.4} s  {rate:.1} M grain-steps/s  {phase}",
+            run.time()
+        );
         match &self.bar {
             Some(bar) => {
                 bar.set_position((1000.0 * share) as u64);

@@ -18,8 +18,14 @@ impl Rows {
         let mut header: Vec<(&str, &str)> = vec![("time", "s")];
         header.extend(readings.iter().map(|r| (r.name, r.unit)));
         let writer = SeriesWriter::create(folder, &header)?;
-        let names: Vec<&'static str> = std::iter::once("time").chain(readings.iter().map(|r| r.name)).collect();
-        let mut rows = Self { writer, columns: vec![Vec::new(); names.len()], names };
+        let names: Vec<&'static str> = std::iter::once("time")
+            .chain(readings.iter().map(|r| r.name))
+            .collect();
+        let mut rows = Self {
+            writer,
+            columns: vec![Vec::new(); names.len()],
+            names,
+        };
         rows.put(run.time(), readings.iter().map(|r| r.value))?;
         Ok(rows)
     }

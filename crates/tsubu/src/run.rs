@@ -32,7 +32,11 @@ pub fn read(wish: &SceneWish) -> Result<Checked, Trouble> {
 
 /// The machine's side of a wish.
 pub fn choices(wish: &SceneWish) -> Choices {
-    Choices { threads: wish.threads.map(usize::from), lanes: wish.lanes.0, allow_unstable: wish.allow_unstable }
+    Choices {
+        threads: wish.threads.map(usize::from),
+        lanes: wish.lanes.0,
+        allow_unstable: wish.allow_unstable,
+    }
 }
 
 /// `tsubu run`.
@@ -41,11 +45,25 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     let checked = read(&wish.scene)?;
     let built = build(&checked, &choices(&wish.scene))?;
     let (mut run, plan) = (built.simulation, built.plan);
-    let stem = wish.scene.scene.file_stem().map_or("scene".into(), |s| s.to_string_lossy().into_owned());
+    let stem = wish
+        .scene
+        .scene
+        .file_stem()
+        .map_or("scene".into(), |s| s.to_string_lossy().into_owned());
     let folder = RunFolder::create(wish.out.as_deref(), &stem, wish.force)?;
-    write_whole(&folder.path("scene.resolved.ron"), checked.scene.to_resolved_ron().as_bytes())?;
+    write_whole(
+        &folder.path("scene.resolved.ron"),
+        checked.scene.to_resolved_ron().as_bytes(),
+    )?;
     folder.make("figures")?;
-    eprintln!("{}: {} grains, step {:.3e} s, {} thread(s), into {}", checked.scene.title, plan.grains, plan.constants.dt, plan.threads, folder.root().display());
+    eprintln!(
+        "{}: {} grains, step {:.3e} s, {} thread(s), into {}",
+        checked.scene.title,
+        plan.grains,
+        plan.constants.dt,
+        plan.threads,
+        folder.root().display()
+    );
 
     let stopped = Arc::new(AtomicBool::new(false));
     let flag = stopped.clone();
@@ -59,7 +77,10 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     let output = checked.scene.output;
     let clock = Clock::of(&output, &plan);
     let mut rows = Rows::start(&folder, &mut *run)?;
-    let mut frames = output.frames.then(|| FrameWriter::new(&folder)).transpose()?;
+    let mut frames = output
+        .frames
+        .then(|| FrameWriter::new(&folder))
+        .transpose()?;
     let mut film = output.animation.then(Film::new);
     let mut progress = Progress::new();
     let mut stepping = Duration::ZERO;
@@ -105,11 +126,18 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     }
     progress.say("drawing");
     let command = command_line();
-    let drawn = film.as_ref().map(|f| f.draw(&folder, run.released_at())).transpose()?.flatten();
+    let drawn = film
+        .as_ref()
+        .map(|f| f.draw(&folder, run.released_at()))
+        .transpose()?
+        .flatten();
     let drawings = figures::draw(&folder, &*run, &rows, &command)?;
     progress.finish();
 
-    let spent = Spent { wall: start.elapsed(), stepping };
+    let spent = Spent {
+        wall: start.elapsed(),
+        stepping,
+    };
     let stop = run.stop();
     let ended = match &stop {
         Some(Stop::Over) => "over",
@@ -121,12 +149,31 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     rows.finish()?;
     match stop {
         Some(Stop::Over) => {
-            println!("{}", ending::words(&*run, &plan, spent, folder.root(), drawn.as_ref().map(|d| &d.0), &drawings, &wish.scene.scene));
+            println!(
+                "{}",
+                ending::words(
+                    &*run,
+                    &plan,
+                    spent,
+                    folder.root(),
+                    drawn.as_ref().map(|d| &d.0),
+                    &drawings,
+                    &wish.scene.scene
+                )
+            );
             Ok(0)
         }
-        Some(stop) => Err(Trouble::Physics(format!("{}\nnote: what was computed until then is in {}", ending::failure(&stop, &plan), folder.root().display()))),
+        Some(stop) => Err(Trouble::Physics(format!(
+            "{}\nnote: what was computed until then is in {}",
+            ending::failure(&stop, &plan),
+            folder.root().display()
+        ))),
         None => {
-            eprintln!("stopped by a signal at t = {:.6} s; what was computed is in {}", run.time(), folder.root().display());
+            eprintln!(
+                "stopped by a signal at t = {:.6} s; what was computed is in {}",
+                run.time(),
+                folder.root().display()
+            );
             Ok(130)
         }
     }
@@ -138,5 +185,15 @@ fn command_line() -> String {
     if let Some(first) = words.first_mut() {
         *first = "tsubu".into();
     }
-    words.iter().map(|w| if w.contains(' ') { format!("\"{w}\"") } else { w.clone() }).collect::<Vec<_>>().join(" ")
+    words
+        .iter()
+        .map(|w| {
+            if w.contains(' ') {
+                format!("\"{w}\"")
+            } else {
+                w.clone()
+            }
+        })
+        .collect::<Vec<_>>()
+        .join(" ")
 }

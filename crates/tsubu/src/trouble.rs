@@ -37,7 +37,8 @@ impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Trouble::Scene(error) => {
-                let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+                let colour =
+                    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
                 write!(f, "{}", error.render(colour))
             }
             Trouble::Arguments(text) | Trouble::Physics(text) => write!(f, "error: {text}"),

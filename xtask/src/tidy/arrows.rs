@@ -95,7 +95,7 @@ pub fn reasons(tree: &Tree) -> Vec<Finding> {
     let manifests = tree.files.iter().filter(|f| f.path.ends_with("Cargo.toml"));
     manifests
         .flat_map(dependencies)
-        .filter(|d| !d.has_reason && !(d.is_path && d.section == "workspace.dependencies"))
+        .filter(|d| !(d.has_reason || d.is_path && d.section == "workspace.dependencies"))
         .map(|d| {
             Finding::error(
                 d.place,

@@ -26,6 +26,11 @@ impl Report {
         }
     }
 
+    /// The workspace.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
     /// True for the long version.
     pub fn full(&self) -> bool {
         self.full

@@ -17,7 +17,17 @@ impl Rules<'_> {
             ),
             for_at_least: self.not_negative("still.for_at_least", "the time", raw.for_at_least.0),
             at_most: self.above_zero("still.at_most", "the time", raw.at_most.0),
+            damping: raw.damping.as_ref().map_or(1.0, |share| {
+                self.above_zero("still.damping", "the share of the damping", share.0)
+            }),
         };
+        if still.damping > 1.0 {
+            self.refuse(
+                "still.damping",
+                "the damping while the grains settle is more than all of it",
+                "give a share of the law's damping, at most 1",
+            );
+        }
         if still.at_most > 0.0 && still.at_most < still.for_at_least {
             self.refuse(
                 "still.at_most",

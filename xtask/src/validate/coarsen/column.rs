@@ -220,7 +220,8 @@ pub fn run(report: &mut Report) -> Result<(), String> {
                     );
                 }
             }
-            (lambda.push(2f64.powi(n as i32)), overlap.push(rest.overlap));
+            lambda.push(2f64.powi(n as i32));
+            overlap.push(rest.overlap);
         }
         if number == 0 {
             let kept: Vec<f64> = lambda.iter().map(|_| overlap[0]).collect();

@@ -106,11 +106,9 @@ pub fn run(report: &mut Report) -> Result<(), String> {
             } else {
                 report.beside(what, expected, got, "");
             }
-            (
-                lambda.push(2f64.powi(n as i32)),
-                rate.push(got),
-                theory.push(expected),
-            );
+            lambda.push(2f64.powi(n as i32));
+            rate.push(got);
+            theory.push(expected);
         }
         let power = slope(&lambda, &rate);
         if number == 0 {

@@ -177,7 +177,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
             lambda.push(2f64.powi(n as i32));
             collisions.push(got.collisions);
             cooling.push(got.cooling);
-            theory.push((1.0 - e * e) / 6.0 * expected);
+            theory.push(expected);
         }
         let powers = [
             ("collision rate", slope(&lambda, &collisions)),
@@ -203,7 +203,20 @@ pub fn run(report: &mut Report) -> Result<(), String> {
             }
         }
         if number == 0 {
-            figure = figure.theory("Haff's law, e kept", &lambda, &theory);
+            let haff: Vec<f64> = theory
+                .iter()
+                .map(|rate| (1.0 - e * e) / 6.0 * rate)
+                .collect();
+            let kept: Vec<f64> = lambda
+                .iter()
+                .zip(&haff)
+                .map(|(lambda, rate)| lambda * rate)
+                .collect();
+            let label = "Enskog; Haff with e kept; Haff at n = 0";
+            figure = figure
+                .theory(label, &lambda, &theory)
+                .theory(label, &lambda, &haff)
+                .theory(label, &lambda, &kept);
         }
         figure = figure
             .points(

@@ -15,7 +15,7 @@ use tsubu_contact::restitution::at_zero_overlap;
 use tsubu_model::Kind;
 
 /// Grain-steps of `--full`: the settling column at n = 0 under two rules, and the gas.
-pub const FULL_GRAIN_STEPS: f64 = 6e9;
+pub const FULL_GRAIN_STEPS: f64 = 4.2e9;
 
 /// A grain, its law and its step at a coarse level.
 struct Coarse {

@@ -13,7 +13,7 @@ mod wall;
 use super::report::Report;
 
 /// Grain-steps of `--full`: mostly the row's million steps at three lengths of step.
-pub const FULL_GRAIN_STEPS: f64 = 4e8;
+pub const FULL_GRAIN_STEPS: f64 = 2e8;
 
 /// Runs every check.
 pub fn run(report: &mut Report) -> Result<(), String> {

@@ -103,7 +103,7 @@ fn exact_solve(report: &mut Report, scheme: Scheme, arrangement: Arrangement, wo
             .unwrap_or(1.0);
         worst = worst.min(first);
     }
-    let even = scheme.sweeps() % 2 == 0;
+    let even = scheme.sweeps().is_multiple_of(2);
     let tolerance = if even {
         Tolerance::AtLeast
     } else {

@@ -97,7 +97,7 @@ impl Case {
         let load = OVERLAP * wca.range() * wca.edge_stiffness();
         let overlap = OVERLAP * wca.range();
         let small = 1e-5 * overlap / dt.max(1.0 / Self::frequency());
-        let sign = |j: u32| if j % 2 == 0 { small } else { -small };
+        let sign = |j: u32| if j.is_multiple_of(2) { small } else { -small };
         let mut lab = Lab::new(grain(), law, self.scheme, dt);
         match self.arrangement {
             Arrangement::Column(n) => {
@@ -190,7 +190,9 @@ pub fn run(report: &mut Report) -> Result<(), String> {
         "Limits of the step, one wall contact",
         "C = γΔt/m (–)",
         "K = kΔt²/m (–)",
-    );
+    )
+    .x_range(0.0, 11.0)
+    .y_range(0.0, 26.0);
     for scheme in schemes {
         let mut at = (Vec::new(), Vec::new());
         for zeta in [0.0, 0.0347, 0.3, 1.0, 3.0] {
@@ -204,7 +206,8 @@ pub fn run(report: &mut Report) -> Result<(), String> {
                 .unwrap_or(f64::NAN);
             let share = case.found(dt);
             let (k, c) = case.numbers(share * dt);
-            (at.0.push(c), at.1.push(k));
+            at.0.push(c);
+            at.1.push(k);
             let (k, c) = case.numbers(dt);
             let what = format!(
                 "limit at a wall, {}, K = {k:.3}, C = {c:.3}: Δt found over claimed",
@@ -214,16 +217,11 @@ pub fn run(report: &mut Report) -> Result<(), String> {
         }
         figure = figure.points(&name(scheme), &at.0, &at.1, None);
     }
-    let c: Vec<f64> = (0..=60).map(|i| 0.2 * f64::from(i)).collect();
-    let line = |f: fn(f64) -> f64| {
-        c.iter()
-            .map(|&c| if f(c) >= 0.0 { f(c) } else { f64::NAN })
-            .collect::<Vec<f64>>()
-    };
+    let claimed = "claimed: K + 2C = 4, K = 4, K = 4 + 2C";
     figure = figure
-        .theory("K + 2C = 4", &c, &line(|c| 4.0 - 2.0 * c))
-        .theory("K = 4", &c, &line(|_| 4.0))
-        .theory("K = 4 + 2C", &c, &line(|c| 4.0 + 2.0 * c));
+        .theory(claimed, &[0.0, 2.0], &[4.0, 0.0])
+        .theory(claimed, &[0.0, 11.0], &[4.0, 4.0])
+        .theory(claimed, &[0.0, 11.0], &[4.0, 26.0]);
     for scheme in [Scheme::SymplecticEuler, Scheme::VerletOld] {
         for zeta in [0.0, 0.3, 1.0] {
             let case = Case {

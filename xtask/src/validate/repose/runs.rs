@@ -1,0 +1,219 @@
+//! One heap after another: runs of the shipped scene with other levels, dampings and seeds.
+//!
+//! A finished run is kept in `target/validate/repose/`, so that the long version can be stopped and
+//! taken up again. Its name holds a fingerprint of the physics (the bits of a short run), so a
+//! change of the code or of the scene starts anew.
+
+use std::fmt::Write as _;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use tsubu_assemble::{Choices, Simulation, build};
+use tsubu_scene::Source;
+
+/// Between two samples, s.
+pub const EVERY: f64 = 0.02;
+
+/// One run: the shipped scene with these changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// Coarse level n.
+    pub coarse: u32,
+    /// Damping over paper A's.
+    pub gamma: f64,
+    /// Stiffness divided by this.
+    pub soften: f64,
+    /// Seed of the fill.
+    pub seed: u64,
+    /// Seconds after the removal of the wall.
+    pub until: f64,
+}
+
+/// What is sampled, in this order.
+pub const COLUMNS: [&str; 6] = [
+    "front",
+    "crest_height",
+    "centre_x",
+    "centre_z",
+    "angle_runout",
+    "angle_flank",
+];
+
+/// A history: row `k` is `k × EVERY` after the removal of the wall.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    /// Values by row, in the order of [`COLUMNS`].
+    pub rows: Vec<[f64; COLUMNS.len()]>,
+    /// Diameter of the coarse grain, m.
+    pub diameter: f64,
+    /// Number of grains.
+    pub grains: usize,
+    /// Energy that the books miss over the energy that went through them.
+    pub budget: f64,
+}
+
+impl History {
+    /// Column by name.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let at = COLUMNS.iter().position(|c| *c == name).unwrap_or(0);
+        self.rows.iter().map(|r| r[at]).collect()
+    }
+}
+
+impl Case {
+    /// The source of the scene with the changes of this case.
+    pub fn source(&self, root: &Path) -> Result<Source, String> {
+        let mut source =
+            Source::read(&root.join("scenarios/angle_of_repose.ron")).map_err(|e| e.to_string())?;
+        let sets = [
+            format!("grains.coarse={}", self.coarse),
+            format!("grains.law.damping=Equal(\"{} kg/s\")", 0.1257 * self.gamma),
+            format!("grains.soften={}", self.soften),
+            format!("initial.fill.seed={}", self.seed),
+            format!("time.until={} s", self.until),
+        ];
+        for set in sets {
+            source.set(&set).map_err(|e| e.to_string())?;
+        }
+        Ok(source)
+    }
+
+    fn file(&self, root: &Path, fingerprint: u64) -> PathBuf {
+        let Case {
+            coarse,
+            gamma,
+            soften,
+            seed,
+            until,
+        } = self;
+        root.join(format!("target/validate/repose/{fingerprint:016x}-n{coarse}-g{gamma}-s{soften}-t{until}-{seed}.csv"))
+    }
+
+    /// The history, from the folder of finished runs or run now.
+    pub fn history(&self, root: &Path, fingerprint: u64) -> Result<History, String> {
+        let file = self.file(root, fingerprint);
+        if let Some(history) = std::fs::read_to_string(&file)
+            .ok()
+            .and_then(|text| read(&text))
+        {
+            return Ok(history);
+        }
+        let history = self.run(root)?;
+        let mut text = format!(
+            "{:?},{},{:?}\n",
+            history.diameter, history.grains, history.budget
+        );
+        for row in &history.rows {
+            let words: Vec<String> = row.iter().map(|v| format!("{v:?}")).collect();
+            let _ = writeln!(text, "{}", words.join(","));
+        }
+        let parent = file.parent().unwrap_or(root);
+        let keep = std::fs::create_dir_all(parent).and_then(|()| std::fs::write(&file, text));
+        keep.map_err(|e| format!("{}: {e}", file.display()))?;
+        Ok(history)
+    }
+
+    /// Runs on one thread; several cases run side by side.
+    fn run(&self, root: &Path) -> Result<History, String> {
+        let checked = self.source(root)?.check().map_err(|e| e.to_string())?;
+        let built = build(
+            &checked,
+            &Choices {
+                threads: Some(1),
+                ..Choices::default()
+            },
+        )
+        .map_err(|e| e.to_string())?;
+        let (mut run, dt) = (built.simulation, built.plan.constants.dt);
+        // Until the wall is gone, in pieces no longer than the gate's own cadence.
+        while run.released_at().is_none() && !run.is_over() {
+            run.look();
+            run.advance(2000);
+        }
+        let released = run
+            .released_at()
+            .ok_or_else(|| format!("{self:?}: {:?}", run.stop()))?;
+        let mut history = History {
+            diameter: 2.0 * built.plan.constants.kind.radius,
+            grains: run.grains(),
+            ..History::default()
+        };
+        // The removal fell inside a piece: the first row is the next sample, the earlier ones repeat it.
+        let rows = (self.until / EVERY).round() as usize;
+        for k in 0..=rows {
+            let due = ((released + k as f64 * EVERY) / dt).round() as u64;
+            run.advance(due.saturating_sub(run.steps()));
+            history.rows.push(sample(&mut *run));
+        }
+        let budget = run
+            .report()
+            .iter()
+            .find(|r| r.name == "energy_budget_error")
+            .map(|r| r.value);
+        history.budget = budget.unwrap_or(f64::NAN);
+        Ok(history)
+    }
+}
+
+fn sample(run: &mut dyn Simulation) -> [f64; COLUMNS.len()] {
+    let readings = run.look();
+    COLUMNS.map(|name| {
+        readings
+            .iter()
+            .find(|r| r.name == name)
+            .map_or(f64::NAN, |r| r.value)
+    })
+}
+
+fn read(text: &str) -> Option<History> {
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next()?.split(',').collect();
+    let rows = lines
+        .map(|line| {
+            let values: Vec<f64> = line
+                .split(',')
+                .map(str::parse)
+                .collect::<Result<_, _>>()
+                .ok()?;
+            values.try_into().ok()
+        })
+        .collect::<Option<Vec<_>>>()?;
+    Some(History {
+        rows,
+        diameter: head.first()?.parse().ok()?,
+        grains: head.get(1)?.parse().ok()?,
+        budget: head.get(2)?.parse().ok()?,
+    })
+}
+
+/// The bits of a short run of the scene: they change with the scene, the laws and the engine.
+pub fn fingerprint(root: &Path) -> Result<u64, String> {
+    let case = Case {
+        coarse: 3,
+        gamma: 1.0,
+        soften: 100.0,
+        seed: 1,
+        until: 0.1,
+    };
+    let checked = case.source(root)?.check().map_err(|e| e.to_string())?;
+    let mut run = build(
+        &checked,
+        &Choices {
+            threads: Some(1),
+            ..Choices::default()
+        },
+    )
+    .map_err(|e| e.to_string())?
+    .simulation;
+    run.advance(20_000);
+    let mut hasher = DefaultHasher::new();
+    checked.scene.to_resolved_ron().hash(&mut hasher);
+    for (x, v) in run.state() {
+        for value in x.to_array().into_iter().chain(v.to_array()) {
+            value.to_bits().hash(&mut hasher);
+        }
+    }
+    for reading in run.look() {
+        reading.value.to_bits().hash(&mut hasher);
+    }
+    Ok(hasher.finish())
+}
