@@ -7,7 +7,7 @@ use crate::simulation::{Release, Running, Simulation};
 use crate::start;
 use std::sync::Arc;
 use tsubu_engine::{
-    Body, Lanes, Layout, NoTally, OneKind, Setup, Tally, TouchesAt, WithTally, World,
+    Body, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally, World,
 };
 use tsubu_measure::{Balance, Energy, Heap, HeapOptions, Slices, Structure};
 use tsubu_model::{ContactLaw, Dim, Domain, Gate, Observer, Plane, Space, Still, Surface, Vector};
@@ -100,7 +100,7 @@ struct Parts<'a, D: Layout> {
     checked: &'a Checked,
     constants: &'a Constants,
     domain: Domain<D>,
-    grains: Vec<(D::V, D::V, usize)>,
+    grains: Vec<Placed<D>>,
     lanes: Lanes,
     pool: Option<Arc<rayon::ThreadPool>>,
 }

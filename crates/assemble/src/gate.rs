@@ -44,11 +44,9 @@ impl<D: Dim, S: SpinState> Gate<D, S> for WallRemoval {
         let waits = |k: usize, what: fn(&Removal) -> bool| {
             bodies[k].removed_at.is_none() && what(&self.when[k])
         };
-        for k in 0..bodies.len() {
-            if let Removal::At(time) = self.when[k]
-                && now >= time
-                && bodies[k].removed_at.is_none()
-            {
+        for (k, body) in bodies.iter().enumerate() {
+            let due = matches!(self.when[k], Removal::At(time) if now >= time);
+            if due && body.removed_at.is_none() {
                 out.push(Change::RemoveBody(k));
             }
         }

@@ -14,6 +14,13 @@ pub struct LimitLine {
     pub used: f64,
 }
 
+impl LimitLine {
+    /// True if the step keeps within it; NaN does not.
+    pub fn holds(&self) -> bool {
+        self.used < 1.0
+    }
+}
+
 /// A scene in words and numbers, before it runs.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -66,7 +73,7 @@ impl Plan {
 
     /// Refuses a step over its limit.
     pub(crate) fn refuse_unstable(&self, checked: &Checked) -> Result<(), SceneError> {
-        let Some(worst) = self.tightest().filter(|l| !(l.used < 1.0)) else {
+        let Some(worst) = self.tightest().filter(|l| !l.holds()) else {
             return Ok(());
         };
         let scheme = self.constants.scheme;
@@ -100,7 +107,7 @@ impl Plan {
         let stable = |share: f64| {
             let mut constants = self.constants.clone();
             constants.dt *= share;
-            shares(&constants).iter().all(|l| l.used < 1.0)
+            shares(&constants).iter().all(LimitLine::holds)
         };
         let mut share = 1.0;
         for _ in 0..2000 {

@@ -187,7 +187,7 @@ where
             let health = self.world.health();
             if !health.is_fine() {
                 self.trouble = Some(Stop::Trouble(health));
-            } else if !self.gates.is_empty() && self.world.steps() % self.gate_every == 0 {
+            } else if !self.gates.is_empty() && self.world.steps().is_multiple_of(self.gate_every) {
                 self.decide();
             }
         }

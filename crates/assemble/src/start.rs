@@ -2,6 +2,7 @@
 
 use crate::constants::Constants;
 use crate::fill::{Box3, fill};
+use tsubu_engine::Placed;
 use tsubu_model::{Dim, Domain, Vector};
 use tsubu_neighbors::{CellGrid, ChunkList};
 use tsubu_scene::{Checked, Initial, SceneError};
@@ -15,9 +16,9 @@ pub(crate) fn grains<D: Dim>(
     checked: &Checked,
     constants: &Constants,
     domain: &Domain<D>,
-) -> Result<Vec<(D::V, D::V, usize)>, SceneError> {
+) -> Result<Vec<Placed<D>>, SceneError> {
     let diameter = constants.kind.diameter();
-    let grains: Vec<(D::V, D::V, usize)> = match checked.starting_grains()? {
+    let grains: Vec<Placed<D>> = match checked.starting_grains()? {
         Some(listed) => {
             if checked.scene.grains.coarse > 0 {
                 let what = "grains that are listed one by one cannot be coarsened: a coarse grain stands for several of them";
@@ -29,12 +30,10 @@ pub(crate) fn grains<D: Dim>(
             }
             listed
                 .iter()
-                .map(|g| {
-                    (
-                        domain.wrap(D::from_space(g.at)),
-                        D::from_space(g.velocity),
-                        0,
-                    )
+                .map(|g| Placed {
+                    position: domain.wrap(D::from_space(g.at)),
+                    velocity: D::from_space(g.velocity),
+                    kind: 0,
                 })
                 .collect()
         }
@@ -43,7 +42,7 @@ pub(crate) fn grains<D: Dim>(
     let behind = grains.iter().enumerate().find_map(|(i, g)| {
         checked.scene.walls.iter().find_map(|wall| {
             let tsubu_scene::Shape::HalfSpace { point, outward } = &wall.shape;
-            let distance = (D::to_space(g.0) - *point).dot(*outward);
+            let distance = (D::to_space(g.position) - *point).dot(*outward);
             (distance < -0.5 * diameter).then_some((i, wall.name.clone(), distance))
         })
     });
@@ -66,7 +65,7 @@ fn filled<D: Dim>(
     checked: &Checked,
     diameter: f64,
     domain: &Domain<D>,
-) -> Result<Vec<(D::V, D::V, usize)>, SceneError> {
+) -> Result<Vec<Placed<D>>, SceneError> {
     let Initial::Fill(wish) = &checked.scene.initial else {
         return Ok(Vec::new());
     };
@@ -100,7 +99,7 @@ fn filled<D: Dim>(
         domain,
         wish.seed,
     );
-    places.map(|places| places.into_iter().map(|x| (x, D::V::ZERO, 0)).collect()).map_err(|fitted| {
+    places.map(|places| places.into_iter().map(|x| Placed { position: x, velocity: D::V::ZERO, kind: 0 }).collect()).map_err(|fitted| {
         let what = format!("the region has no room: only {fitted} of {count} grains of {:.4} mm could be placed", diameter * 1e3);
         checked.problem("initial.fill", what, "enlarge the region, lower solid_fraction or lower grains.coarse")
     })
@@ -108,13 +107,13 @@ fn filled<D: Dim>(
 
 fn refuse_overlaps<D: Dim>(
     checked: &Checked,
-    grains: &[(D::V, D::V, usize)],
+    grains: &[Placed<D>],
     diameter: f64,
     domain: &Domain<D>,
 ) -> Result<(), SceneError> {
     let n = grains.len();
     let reach = diameter * (1.0 - MOST_OVERLAP);
-    let grid = CellGrid::new(domain, n, |i| grains[i].0, reach);
+    let grid = CellGrid::new(domain, n, |i| grains[i].position, reach);
     let old = |sorted: usize| grid.order[sorted] as usize;
     let mut list = ChunkList::default();
     // Chunk by chunk, as a list's slots are 16-bit.
@@ -123,13 +122,15 @@ fn refuse_overlaps<D: Dim>(
             &grid,
             domain,
             first..(first + 32_768).min(n),
-            |i| grains[old(i)].0,
+            |i| grains[old(i)].position,
             reach,
             n as u32,
         );
         if let Some((slot, j)) = list.iter().next() {
             let (i, j) = (old(first + slot), old(j));
-            let apart = domain.nearest(grains[i].0 - grains[j].0).length();
+            let apart = domain
+                .nearest(grains[i].position - grains[j].position)
+                .length();
             let what = format!(
                 "grains {} and {} overlap at the start by {:.1} % of their diameter",
                 i.min(j),

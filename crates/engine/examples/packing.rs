@@ -3,7 +3,7 @@
 use glam::DVec3;
 use std::sync::Arc;
 use tsubu_contact::{Repulsion, RepulsiveWall};
-use tsubu_engine::{Body, Lanes, NoTally, OneKind, Setup, TouchesAt, World};
+use tsubu_engine::{Body, Lanes, NoTally, OneKind, Placed, Setup, TouchesAt, World};
 use tsubu_integrate::Scheme;
 use tsubu_model::{Domain, Kind, Space, Still, View};
 use tsubu_sdf::HalfSpace;
@@ -21,7 +21,11 @@ fn main() {
         .skip(1)
         .map(|l| {
             let c: Vec<f64> = l.split(',').map(|x| x.parse().unwrap()).collect();
-            (DVec3::new(c[0], c[1], c[2]), DVec3::ZERO, 0)
+            Placed {
+                position: DVec3::new(c[0], c[1], c[2]),
+                velocity: DVec3::ZERO,
+                kind: 0,
+            }
         })
         .collect();
     let law = Repulsion::new(9.434e-5, 1.203e-3, 3.975e-3, 3.975e-3, 1.35e-3);

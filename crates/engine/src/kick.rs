@@ -128,8 +128,9 @@ impl Kick<'_> {
         };
         line.set_position::<D>(line.position::<D>() + v * self.dt);
         let speed2 = v.length_squared();
-        // Written so that NaN counts as trouble.
-        if !(speed2 <= self.too_fast2) && trouble.is_none() {
+        // NaN is not sound either.
+        let sound = speed2 <= self.too_fast2;
+        if !sound && trouble.is_none() {
             *trouble = Some(slot);
         }
         *fastest2 = fastest2.max(speed2);

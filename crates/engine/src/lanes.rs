@@ -6,6 +6,7 @@
 //! same eight lanes, fold by the same tree, divide truly and never fuse, so they give the same bits
 //! (`tests` in this file and the whole-scene tests compare them).
 #![allow(unsafe_code)]
+#![allow(clippy::needless_range_loop)] // rows and columns of a transpose are indexed in step
 
 use crate::kinds::KindSet;
 use crate::line::{Layout, Line};

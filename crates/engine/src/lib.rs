@@ -23,4 +23,4 @@ pub use kinds::{KindSet, ManyKinds, OneKind};
 pub use lanes::Lanes;
 pub use line::{Layout, Line};
 pub use walls::{Body, TouchesAt};
-pub use world::{NoTally, Setup, Tally, WithTally, World};
+pub use world::{NoTally, Placed, Setup, Tally, WithTally, World};

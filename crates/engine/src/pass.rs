@@ -1,4 +1,5 @@
 //! The force loop over one chunk of grains: eight contacts at a time.
+#![allow(clippy::needless_range_loop)] // lanes of many arrays are indexed in step
 
 use crate::kinds::KindSet;
 use crate::lanes::Gather;

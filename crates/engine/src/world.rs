@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::sync::Arc;
 use tsubu_integrate::{Drift, Scheme};
-use tsubu_model::{ContactLaw, Domain, Kind, Numbers, SpinState, Touch, Vector};
+use tsubu_model::{ContactLaw, Dim, Domain, Kind, Numbers, SpinState, Touch, Vector};
 
 /// Whether the work of damping and friction is summed, as a type: a run that does not ask does not pay.
 pub trait Tally: Send + Sync + 'static {
@@ -32,6 +32,17 @@ impl Tally for NoTally {
 }
 impl Tally for WithTally {
     const ON: bool = true;
+}
+
+/// A grain at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed<D: Dim> {
+    /// Centre in m.
+    pub position: D::V,
+    /// Velocity in m/s.
+    pub velocity: D::V,
+    /// Number of its kind.
+    pub kind: usize,
 }
 
 /// Everything a world is made from.
@@ -56,8 +67,8 @@ pub struct Setup<D: Layout, K, L, W> {
     pub lanes: Lanes,
     /// Threads; `None` runs without a pool.
     pub pool: Option<Arc<rayon::ThreadPool>>,
-    /// Position, velocity and kind of each grain; the index is its identity.
-    pub grains: Vec<(D::V, D::V, usize)>,
+    /// The grains; the index is the identity.
+    pub grains: Vec<Placed<D>>,
 }
 
 /// A running scene. `K`: one kind or several; `L`, `W`: laws between grains and against walls;
@@ -141,11 +152,14 @@ where
         let weights = all.iter().map(|k| gravity * k.weight).collect();
         let n = grains.len();
         let mut lines: Vec<Line> = Vec::with_capacity(n + 1);
-        lines.extend(
-            grains
-                .iter()
-                .map(|&(x, v, kind)| Line::new::<D>(domain.wrap(x), v, all[kind].radius, kind)),
-        );
+        lines.extend(grains.iter().map(|g| {
+            Line::new::<D>(
+                domain.wrap(g.position),
+                g.velocity,
+                all[g.kind].radius,
+                g.kind,
+            )
+        }));
         lines.push(Line::dummy::<D>());
         let solves = if scheme.sweeps() > 0 { n } else { 0 };
         let mut world = Self {

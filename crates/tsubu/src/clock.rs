@@ -29,7 +29,7 @@ impl Clock {
     }
 
     /// Steps from `now` to the next row or frame.
-    pub fn to_next(&self, now: u64) -> u64 {
+    pub fn to_next(self, now: u64) -> u64 {
         (self.row - now % self.row).min(self.frame - now % self.frame)
     }
 }

@@ -63,7 +63,7 @@ impl Film {
 
     /// Keeps a snapshot, or not, so that the whole stays within bounds and evenly spaced.
     pub fn add(&mut self, run: &dyn Simulation, snapshot: &Snapshot) {
-        let due = self.seen % self.keep == 0;
+        let due = self.seen.is_multiple_of(self.keep);
         self.seen += 1;
         if !due {
             return;

@@ -3,7 +3,9 @@
 use glam::DVec3;
 use std::sync::Arc;
 use tsubu_contact::{PerDirection, Repulsion, RepulsiveWall};
-use tsubu_engine::{Body, Lanes, ManyKinds, NoTally, OneKind, Setup, TouchesAt, WithTally, World};
+use tsubu_engine::{
+    Body, Lanes, ManyKinds, NoTally, OneKind, Placed, Setup, TouchesAt, WithTally, World,
+};
 use tsubu_integrate::Scheme;
 use tsubu_model::{Domain, Kind, Space, Still};
 use tsubu_sdf::HalfSpace;
@@ -115,7 +117,11 @@ impl Lab {
                 .grains
                 .into_iter()
                 .enumerate()
-                .map(|(i, (x, v))| (x, v, kind_of(i)))
+                .map(|(i, (position, velocity))| Placed {
+                    position,
+                    velocity,
+                    kind: kind_of(i),
+                })
                 .collect(),
         }
     }

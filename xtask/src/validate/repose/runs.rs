@@ -63,7 +63,7 @@ impl Case {
     /// The source of the scene with the changes of this case.
     pub fn source(&self, root: &Path) -> Result<Source, String> {
         let mut source =
-            Source::read(&root.join("scenarios/angle_of_repose.ron")).map_err(|e| e.to_string())?;
+            Source::read(root.join("scenarios/angle_of_repose.ron")).map_err(|e| e.to_string())?;
         let sets = [
             format!("grains.coarse={}", self.coarse),
             format!("grains.law.damping=Equal(\"{} kg/s\")", 0.1257 * self.gamma),
