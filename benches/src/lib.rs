@@ -1,1 +1,1 @@
-//! benches
+//! Benches live in `benches/`, scenes for side-by-side runs in `scenes/`.

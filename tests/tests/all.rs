@@ -1,9 +1,9 @@
 //! Whole-scene and cross-crate tests: one binary, a module for each subject.
 
 mod bad_scenes; // every bad scene ends with the message it states, in the library and in the command
-//mod good_scenes; // every good scene runs to its end, and its resolved text runs to the same bits
-//mod command; // exit codes and what a run leaves behind
-//mod trouble; // folders that cannot be written, signals, physics that fails
-//mod same_bits; // threads, vector paths, outputs and batches change no bit
-//mod physics; // whole scenes with closed forms
-//mod properties; // random small scenes: stable when the check says so, invariants, units
+mod command; // exit codes and what a run leaves behind
+mod good_scenes; // every good scene runs to its end, and its resolved text runs to the same bits
+mod physics; // whole scenes with closed forms
+mod properties;
+mod same_bits; // threads, vector paths, outputs and batches change no bit
+mod trouble; // folders that cannot be written, signals, physics that fails // random small scenes: stable when the check says so, invariants, units

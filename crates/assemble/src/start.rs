@@ -5,7 +5,7 @@ use crate::fill::{Box3, fill};
 use tsubu_engine::Placed;
 use tsubu_model::{Dim, Domain, Vector};
 use tsubu_neighbors::{CellGrid, ChunkList};
-use tsubu_scene::{Checked, Initial, SceneError};
+use tsubu_scene::{Checked, Initial, SceneError, TouchesAt};
 
 /// Overlap over the diameter above which a start is refused: a settled bed under its own weight has
 /// some 1e-4; at a hundredth grains of a stiff law would be shot apart.
@@ -39,24 +39,7 @@ pub(crate) fn grains<D: Dim>(
         }
         None => filled(checked, diameter, domain)?,
     };
-    let behind = grains.iter().enumerate().find_map(|(i, g)| {
-        checked.scene.walls.iter().find_map(|wall| {
-            let tsubu_scene::Shape::HalfSpace { point, outward } = &wall.shape;
-            let distance = (D::to_space(g.position) - *point).dot(*outward);
-            (distance < -0.5 * diameter).then_some((i, wall.name.clone(), distance))
-        })
-    });
-    if let Some((i, wall, distance)) = behind {
-        let what = format!(
-            "grain {i} starts {} mm behind the wall `{wall}`",
-            -distance * 1e3
-        );
-        return Err(checked.problem(
-            "initial",
-            what,
-            "move the grains, or turn the wall's outward normal towards them",
-        ));
-    }
+    refuse_walls(checked, &grains, diameter)?;
     refuse_overlaps(checked, &grains, diameter, domain)?;
     Ok(grains)
 }
@@ -103,6 +86,47 @@ fn filled<D: Dim>(
         let what = format!("the region has no room: only {fitted} of {count} grains of {:.4} mm could be placed", diameter * 1e3);
         checked.problem("initial.fill", what, "enlarge the region, lower solid_fraction or lower grains.coarse")
     })
+}
+
+/// Refuses a grain that starts in a wall: it would be shot off as two overlapping grains are.
+fn refuse_walls<D: Dim>(
+    checked: &Checked,
+    grains: &[Placed<D>],
+    diameter: f64,
+) -> Result<(), SceneError> {
+    for wall in &checked.scene.walls {
+        let tsubu_scene::Shape::HalfSpace { point, outward } = &wall.shape;
+        let offset = match wall.touches_at {
+            TouchesAt::Surface => 0.5 * diameter,
+            TouchesAt::Centre => 0.0,
+        };
+        for (i, grain) in grains.iter().enumerate() {
+            let distance = (D::to_space(grain.position) - *point).dot(*outward);
+            let overlap = 1.0 - (distance + offset) / diameter;
+            if overlap <= MOST_OVERLAP {
+                continue;
+            }
+            let what = if distance < 0.0 {
+                format!(
+                    "grain {i} starts {} mm behind the wall `{}`",
+                    -distance * 1e3,
+                    wall.name
+                )
+            } else {
+                format!(
+                    "grain {i} and the wall `{}` overlap at the start by {:.1} % of the diameter",
+                    wall.name,
+                    100.0 * overlap
+                )
+            };
+            return Err(checked.problem(
+                "initial",
+                what,
+                "move the grains, or turn the wall's outward normal towards them",
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn refuse_overlaps<D: Dim>(

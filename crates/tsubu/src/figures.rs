@@ -91,7 +91,10 @@ pub fn draw(
         }
         let mut figure = Figure::new(title, axis, label).caption(command);
         for (values, label) in there {
-            figure = figure.line(label, &time, values);
+            let there = |i: &usize| values[*i].is_finite();
+            let x: Vec<f64> = (0..values.len()).filter(there).map(|i| time[i]).collect();
+            let y: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+            figure = figure.line(label, &x, &y);
         }
         files.push(save(folder, name, &figure)?);
     }

@@ -13,6 +13,9 @@ const MOST_KEPT: usize = 12_000_000;
 /// Most pictures of an animation.
 const MOST_PICTURES: usize = 240;
 
+/// Seconds shown before a wall that waits for stillness is removed.
+const LEAD: f64 = 0.1;
+
 /// One picture to come.
 struct Shot {
     time: f64,
@@ -97,11 +100,14 @@ impl Film {
         folder: &RunFolder,
         zero: Option<f64>,
     ) -> Result<Option<(PathBuf, PathBuf)>, Trouble> {
-        if self.shots.iter().all(|s| s.centres.is_empty()) {
+        // What comes before the wall goes is long and of no interest: a moment of it is enough.
+        let from = zero.map_or(f64::NEG_INFINITY, |zero| zero - LEAD);
+        let shots: Vec<&Shot> = self.shots.iter().filter(|s| s.time >= from).collect();
+        if shots.iter().all(|s| s.centres.is_empty()) {
             return Ok(None);
         }
-        let (low, high) = self.extent();
-        let fastest = self.usual_top_speed();
+        let (low, high) = self.extent(&shots);
+        let fastest = usual_top_speed(&shots);
         let size = high - low;
         let width = 960usize;
         let height =
@@ -109,7 +115,7 @@ impl Film {
         let path = folder.path("animation.gif");
         let mut animation = Animation::create(&path, width, height, Duration::from_millis(60))?;
         let mut last = None;
-        for shot in &self.shots {
+        for shot in shots {
             let image = self.picture(shot, low, high, fastest, (width, height), zero);
             animation.push(&image)?;
             last = Some(image);
@@ -167,9 +173,9 @@ impl Film {
     }
 
     /// The box that holds nearly all grains of all pictures: a stray grain does not shrink the heap.
-    fn extent(&self) -> (DVec3, DVec3) {
+    fn extent(&self, shots: &[&Shot]) -> (DVec3, DVec3) {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for shot in &self.shots {
+        for shot in shots {
             for axis in 0..3 {
                 let mut values: Vec<f32> = shot
                     .centres
@@ -189,19 +195,19 @@ impl Film {
         let room = DVec3::splat(1.2 * f64::from(self.radius));
         (low - room, high + room)
     }
+}
 
-    /// 95 % of grains are slower than this in the fastest picture.
-    fn usual_top_speed(&self) -> f32 {
-        let top = |shot: &Shot| {
-            let mut speeds: Vec<f32> = shot
-                .speeds
-                .iter()
-                .copied()
-                .filter(|v| v.is_finite())
-                .collect();
-            speeds.sort_unstable_by(f32::total_cmp);
-            speeds.get(speeds.len() * 95 / 100).copied().unwrap_or(0.0)
-        };
-        self.shots.iter().map(top).fold(0.0, f32::max).max(1e-6)
-    }
+/// 98 % of grains are slower than this in the fastest picture.
+fn usual_top_speed(shots: &[&Shot]) -> f32 {
+    let top = |shot: &&Shot| {
+        let mut speeds: Vec<f32> = shot
+            .speeds
+            .iter()
+            .copied()
+            .filter(|v| v.is_finite())
+            .collect();
+        speeds.sort_unstable_by(f32::total_cmp);
+        speeds.get(speeds.len() * 98 / 100).copied().unwrap_or(0.0)
+    };
+    shots.iter().map(top).fold(0.0, f32::max).max(1e-6)
 }
