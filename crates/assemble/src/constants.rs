@@ -80,9 +80,10 @@ impl Constants {
         };
         let mut sources = vec!["Sumitomo2024", "Weeks1971"];
         if grains.coarse > 0 {
-            sources.extend(rule.source().split(',').map(str::trim));
+            let of_rule = rule.source().split(',').map(str::trim);
+            let new: Vec<&str> = of_rule.filter(|key| !sources.contains(key)).collect();
+            sources.extend(new);
         }
-        sources.dedup();
         Ok(Self {
             kind,
             law: coarse,

@@ -263,6 +263,7 @@ fn stiffnesses(
 ) -> Result<(), String> {
     let factors: &[f64] = if report.full() { &[10.0, 1.0] } else { &[30.0] };
     let (fall, spread) = soft.change("centre_z", last(base));
+    let mut points = vec![(base.soften, fall, spread)];
     for &soften in factors {
         let heaps = Ensemble::gather(
             Case { soften, ..base },
@@ -281,6 +282,7 @@ fn stiffnesses(
             Tolerance::AtMost,
             "the default stiffness is soft enough to be cheap and stiff enough not to matter",
         );
+        points.push((soften, other, other_spread));
         report.tell(
             format!(
                 "n = 3, E/{soften}: fall of the centre of mass at {} s (mm)",
@@ -290,6 +292,20 @@ fn stiffnesses(
             "",
         );
     }
+    let column = |f: fn(&(f64, f64, f64)) -> f64| points.iter().map(f).collect::<Vec<f64>>();
+    let figure = Figure::new(
+        "What a softer grain changes (n = 3, damping kept)",
+        "stiffness divided by",
+        "fall of the centre of mass (m)",
+    )
+    .log_x()
+    .points(
+        &format!("{} s after the removal", base.until),
+        &column(|p| p.0),
+        &column(|p| p.1),
+        Some(&column(|p| p.2)),
+    );
+    report.figure("repose_stiffness", figure)?;
     let harder = Case {
         soften: 1000.0,
         ..base
