@@ -4,7 +4,7 @@
 //! `tsubu-model`. A step cannot fail; trouble is a [`Health`] read outside the loop.
 //!
 //! Read in this order: `line` (what the force loop reads of a grain), `pass` (the force loop),
-//! `lanes` (the fenced vector module), `walls`, `kick`, `world` (one step), `rebuild`, `look`.
+//! `lanes` (the fenced vector module), `walls`, `kick`, `world` (one step), `sweeps`, `rebuild`, `look`.
 
 mod chunk;
 mod health;
@@ -15,6 +15,7 @@ mod line;
 mod look;
 mod pass;
 mod rebuild;
+mod sweeps;
 mod walls;
 mod world;
 

@@ -7,7 +7,7 @@ use crate::kinds::KindSet;
 use crate::lanes::{self, Lanes};
 use crate::line::{Layout, Line};
 use crate::pass::Job;
-use crate::walls::{Body, WallJob, WallPair, strongest, wall_damping, wall_energy, wall_forces};
+use crate::walls::{Body, WallJob, WallPair, wall_energy, wall_forces};
 use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -88,8 +88,8 @@ pub struct World<
     pub(crate) domain: Domain<D>,
     pub(crate) gravity: D::V,
     weights: Vec<D::V>,
-    scheme: Scheme,
-    dt: f64,
+    pub(crate) scheme: Scheme,
+    pub(crate) dt: f64,
     lanes: Lanes,
     pool: Option<Arc<rayon::ThreadPool>>,
 
@@ -98,10 +98,10 @@ pub struct World<
     pub(crate) identity: Vec<u32>,
     /// Positions at the last list build.
     pub(crate) home: Vec<D::V>,
-    force: Vec<D::V>,
-    viscous: Vec<D::V>,
-    base: Vec<D::V>,
-    damping: Vec<f64>,
+    pub(crate) force: Vec<D::V>,
+    pub(crate) viscous: Vec<D::V>,
+    pub(crate) base: Vec<D::V>,
+    pub(crate) damping: Vec<f64>,
     pub(crate) chunks: Vec<Chunk<D>>,
 
     pub(crate) range: f64,
@@ -295,7 +295,7 @@ where
     }
 
     /// Square of half a range per step: no grain of a sound run is that fast.
-    fn too_fast2(&self) -> f64 {
+    pub(crate) fn too_fast2(&self) -> f64 {
         (0.5 * self.range / self.dt).powi(2)
     }
 
@@ -336,96 +336,6 @@ where
             {
                 work(n, c, l, f);
             }
-        }
-    }
-
-    /// The linear solve of the averaged and the implicit dashpot: sweeps, then kick and drift.
-    /// Forces run in parallel; the light passes between them are serial.
-    fn solve(&mut self, h: f64, sweeps: u32, drift: Option<Drift>) {
-        let n = self.identity.len();
-        for (base, line) in self.base.iter_mut().zip(&self.lines) {
-            *base = line.velocity::<D>();
-        }
-        self.diagonal_damping();
-        for sweep in 0..sweeps {
-            if sweep > 0 {
-                self.forces();
-            }
-            let kick = Kick {
-                kinds: self.kinds.all(),
-                h,
-                dt: self.dt,
-                drift,
-                too_fast2: self.too_fast2(),
-            };
-            let at = |number: usize| number * CHUNK..((number + 1) * CHUNK).min(n);
-            let (base, damping) = (&self.base, &self.damping);
-            let chunks = self
-                .chunks
-                .iter_mut()
-                .zip(self.lines[..n].chunks_mut(CHUNK))
-                .zip(self.force.chunks(CHUNK));
-            for (number, ((chunk, lines), force)) in chunks.enumerate() {
-                kick.sweep::<D, K>(chunk, lines, force, &base[at(number)], &damping[at(number)]);
-            }
-        }
-        let kick = Kick {
-            kinds: self.kinds.all(),
-            h,
-            dt: self.dt,
-            drift,
-            too_fast2: self.too_fast2(),
-        };
-        let mut viscous = self.viscous.chunks_mut(CHUNK);
-        let chunks = self
-            .chunks
-            .iter_mut()
-            .zip(self.lines[..n].chunks_mut(CHUNK))
-            .zip(self.force.chunks_mut(CHUNK))
-            .zip(self.base.chunks(CHUNK));
-        for (((chunk, lines), force), base) in chunks {
-            kick.finish_solve::<D, K, T>(
-                chunk,
-                lines,
-                force,
-                viscous.next().unwrap_or(&mut []),
-                base,
-            );
-        }
-    }
-
-    /// Sum of the dampings of each grain's contacts at the present positions.
-    fn diagonal_damping(&mut self) {
-        let walls = WallJob::<D, S, W> {
-            bodies: &self.bodies,
-            pairs: &self.wall_pairs,
-            dt: self.dt,
-        };
-        for (number, (chunk, damping)) in self
-            .chunks
-            .iter_mut()
-            .zip(self.damping.chunks_mut(CHUNK))
-            .enumerate()
-        {
-            let first = number * CHUNK;
-            damping.fill(0.0);
-            for (slot, j) in chunk.list.iter() {
-                let (pair, touch) = touch_of::<D, S, K, L>(
-                    &self.lines,
-                    &self.pairs,
-                    self.kinds.all().len(),
-                    &self.domain,
-                    first + slot,
-                    j,
-                );
-                damping[slot] += strongest(&L::linear(pair, &touch, self.dt));
-            }
-            wall_damping::<D, S, K, W>(
-                &walls,
-                &self.lines[first..first + damping.len()],
-                chunk,
-                damping,
-            );
         }
     }
 
@@ -484,7 +394,7 @@ where
         self.dt
     }
 
-    /// Lists built so far.
+    /// Entries and blocks of all lists.
     pub fn list_counts(&self) -> (usize, usize) {
         self.chunks.iter().fold((0, 0), |s, c| {
             (s.0 + c.list.entries(), s.1 + c.list.blocks().len())

@@ -42,7 +42,7 @@ const FROM_ROWS: [Together; 3] = [
         "coordination",
         "Contacts per grain",
         "coordination number",
-        &[("coordination", "all grains")],
+        &[("coordination", "grains inside the deposit")],
     ),
 ];
 

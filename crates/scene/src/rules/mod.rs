@@ -95,6 +95,13 @@ impl<'a> Rules<'a> {
                 remedy,
             );
         }
+        if scene.waits_for_stillness() && scene.gravity == 0.0 {
+            self.refuse(
+                "gravity",
+                "a wall is removed WhenStill, which is measured against m g d, but there is no gravity",
+                "give gravity a value, or remove the wall At(\"…\")",
+            );
+        }
         if !scene.waits_for_stillness() && scene.still.is_some() {
             let remedy = "remove the block, or write removed: WhenStill for a wall";
             self.refuse(
