@@ -148,10 +148,10 @@ fn a_signal_ends_the_run_in_order() {
             scene("small_heap.ron")
         );
         let mut child = start_in(scratch.path(), &line);
-        // The second row shows that it runs.
-        while std::fs::read_to_string(scratch.join("run/series.csv"))
-            .map_or(0, |text| text.lines().count())
-            < 3
+        // The second frame is written after the second row: from then on it steps.
+        while std::fs::read_to_string(scratch.join("run/frames.pvd"))
+            .map_or(0, |text| text.matches("<DataSet").count())
+            < 2
         {
             let over = child.try_wait().unwrap_or_else(|error| panic!("{error}"));
             assert!(
@@ -171,7 +171,7 @@ fn a_signal_ends_the_run_in_order() {
         );
         let folder = scratch.join("run");
         let (_, rows) = series(&folder);
-        assert!(rows.len() >= 3);
+        assert!(rows.len() >= 2);
         assert_eq!(
             frames(&folder).len(),
             rows.len(),
@@ -179,10 +179,11 @@ fn a_signal_ends_the_run_in_order() {
         );
         let summary = summary(&folder);
         assert_eq!(summary["ended"], "stopped by a signal");
-        let end = rows.last().map(|row| row[0]);
-        assert_eq!(
-            summary["time"]["value"].as_f64(),
-            end,
+        let end = summary["time"]["value"].as_f64().unwrap_or(f64::NAN);
+        // The reader of the summary rounds the last digit its own way.
+        assert!(
+            rows.last()
+                .is_some_and(|row| (row[0] / end - 1.0).abs() < 1e-15),
             "the last row is the moment of the signal"
         );
         let animation = tree(&folder)["animation.gif"].clone();

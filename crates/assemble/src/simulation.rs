@@ -13,6 +13,9 @@ use tsubu_scene::End;
 /// Overlap over the law's range above which a run stops: the laws are made for a hundredth.
 const DEEP: f64 = 0.3;
 
+/// Steps between two looks for deep overlaps, and one at the end: fixed, so that the cadence of outputs decides nothing.
+const DEPTH_EVERY: u64 = 1000;
+
 /// Why a run goes no further.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stop {
@@ -182,9 +185,15 @@ where
             if !self.gates.is_empty() {
                 batch = batch.min(self.gate_every - now % self.gate_every);
             }
-            // Without gates and with a far end, still look at the health now and then.
-            self.world.advance(batch.min(100_000));
-            let health = self.world.health();
+            batch = batch.min(DEPTH_EVERY - now % DEPTH_EVERY);
+            self.world.advance(batch);
+            let mut health = self.world.health();
+            let here = self.world.steps();
+            if health.is_fine()
+                && (here.is_multiple_of(DEPTH_EVERY) || self.last_step() == Some(here))
+            {
+                health = self.world.overlap_health(DEEP);
+            }
             if !health.is_fine() {
                 self.trouble = Some(Stop::Trouble(health));
             } else if !self.gates.is_empty() && self.world.steps().is_multiple_of(self.gate_every) {
@@ -233,10 +242,6 @@ where
 
     fn look(&mut self) -> Vec<Reading> {
         let world = &self.world;
-        let deep = world.overlap_health(DEEP);
-        if !deep.is_fine() && self.trouble.is_none() {
-            self.trouble = Some(Stop::Trouble(deep));
-        }
         self.observers
             .iter_mut()
             .flat_map(|o| o.see(world))

@@ -71,6 +71,8 @@ impl Case {
             format!("initial.fill.seed={}", self.seed),
             format!("still.kinetic_energy={:e}", self.still()),
             "still.damping=1".to_owned(),
+            // More damping needs a shorter step: K + 2C of a packing stays below 4.
+            format!("time.step=PerPeriod({})", 20.0 * self.gamma.max(1.0)),
             "still.at_most=20 s".to_owned(),
             format!("time.until={} s", self.until),
         ];
