@@ -124,6 +124,21 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     if last.1 != run.steps() {
         shoot(&*run)?;
     }
+    let stop = run.stop();
+    let ended = match &stop {
+        Some(Stop::Over) => "over",
+        Some(Stop::NeverStill { .. }) => "never still",
+        Some(Stop::Trouble(_)) => "trouble",
+        None => "stopped by a signal",
+    };
+    let summarise = |rows: &Rows| -> Result<Spent, Trouble> {
+        let wall = start.elapsed();
+        let spent = Spent { wall, stepping };
+        ending::summary(&folder, &checked.scene, &plan, &*run, rows, spent, ended)?;
+        Ok(spent)
+    };
+    // Before the pictures, which may fail, and again with the time that they took.
+    summarise(&rows)?;
     progress.say("drawing");
     let command = command_line();
     let drawn = film
@@ -133,19 +148,7 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
         .flatten();
     let drawings = figures::draw(&folder, &*run, &rows, &command)?;
     progress.finish();
-
-    let spent = Spent {
-        wall: start.elapsed(),
-        stepping,
-    };
-    let stop = run.stop();
-    let ended = match &stop {
-        Some(Stop::Over) => "over",
-        Some(Stop::NeverStill { .. }) => "never still",
-        Some(Stop::Trouble(_)) => "trouble",
-        None => "stopped by a signal",
-    };
-    ending::summary(&folder, &checked.scene, &plan, &*run, &rows, spent, ended)?;
+    let spent = summarise(&rows)?;
     rows.finish()?;
     match stop {
         Some(Stop::Over) => {

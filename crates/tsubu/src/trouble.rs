@@ -43,7 +43,10 @@ impl fmt::Display for Trouble {
             }
             Trouble::Arguments(text) | Trouble::Physics(text) => write!(f, "error: {text}"),
             Trouble::Record(error) => write!(f, "error: {error}"),
-            Trouble::Picture(error) => write!(f, "error: {error}"),
+            Trouble::Picture(error) => write!(
+                f,
+                "error: {error}\nhelp: the numbers of the run are written; free some space and run again, or choose another disk with --out"
+            ),
         }
     }
 }
