@@ -106,12 +106,17 @@ impl Film {
         if shots.iter().all(|s| s.centres.is_empty()) {
             return Ok(None);
         }
-        let (low, high) = self.extent(&shots);
-        let fastest = usual_top_speed(&shots);
+        let after: Vec<&Shot> = shots
+            .iter()
+            .copied()
+            .filter(|s| zero.is_none_or(|zero| s.time >= zero))
+            .collect();
+        let (low, high) = self.extent(&after);
+        let fastest = usual_top_speed(&after);
         let size = high - low;
-        let width = 960usize;
+        let width = 640usize;
         let height =
-            ((width as f64 * (size.z / size.x.max(1e-12))) as usize + 90).clamp(240, 900) / 2 * 2;
+            ((width as f64 * (size.z / size.x.max(1e-12))) as usize + 90).clamp(240, 720) / 2 * 2;
         let path = folder.path("animation.gif");
         let mut animation = Animation::create(&path, width, height, Duration::from_millis(60))?;
         let mut last = None;
