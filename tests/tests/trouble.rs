@@ -114,10 +114,9 @@ fn a_disk_that_fills_up_ends_with_one_message_and_whole_files() {
             "{:?}",
             left.keys()
         );
-        assert!(
-            !left.contains_key("summary.json"),
-            "a run that did not end has no result"
-        );
+        // A run that did not end has no result; one whose pictures alone fail keeps its numbers.
+        let pictures_alone = ["animation.gif", "figures"].contains(&first);
+        assert_eq!(left.contains_key("summary.json"), pictures_alone, "{first}");
         // Nothing else is cut short: pictures are whole or absent, as are frames.
         for (name, end) in [
             (".gif", &b";"[..]),

@@ -78,10 +78,9 @@ impl Plan {
         };
         let scheme = self.constants.scheme;
         let what = format!(
-            "the step of {:.3e} s is over its limit for {}: {} uses {} of what {} bears",
+            "the step of {:.3e} s is over its limit for {}: it is {} of what {} bears",
             self.constants.dt,
             worst.name,
-            scheme.name(),
             if worst.used.is_finite() {
                 format!("{:.0} %", 100.0 * worst.used)
             } else {
