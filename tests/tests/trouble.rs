@@ -75,7 +75,7 @@ fn a_disk_that_fills_up_ends_with_one_message_and_whole_files() {
             "animation.gif",
         ),
         (
-            4,
+            8,
             &[
                 "output.frames=false",
                 "output.animation=false",

@@ -14,6 +14,7 @@ use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use crate::PictureError;
 use crate::colour::{self, INK, PAPER, Rgb, UNKNOWN, of_share};
 use crate::image::Image;
+use crate::whole::partial;
 
 /// Colours of the map in the palette.
 const COLOURS: usize = 31;
@@ -138,13 +139,6 @@ impl Drop for Animation {
             let _ = std::fs::remove_file(partial(&self.path));
         }
     }
-}
-
-/// The name until the animation is whole.
-fn partial(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_os_string();
-    name.push(".part");
-    PathBuf::from(name)
 }
 
 /// The frame that turns `before` into `now`: the rectangle that differs, see-through where nothing changed.

@@ -48,7 +48,7 @@ impl Image {
             .write_header()
             .and_then(|mut writer| writer.write_image_data(&self.pixels))
             .map_err(|reason| PictureError::format(path, reason))?;
-        std::fs::write(path, bytes).map_err(PictureError::file(path))
+        crate::whole::write(path, bytes)
     }
 
     /// Whether the fields, which anybody may set, belong together and fit the formats.

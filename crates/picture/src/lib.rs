@@ -22,6 +22,7 @@ pub mod grains;
 pub mod image;
 pub mod plot;
 mod text;
+mod whole;
 
 pub use animation::Animation;
 pub use error::PictureError;

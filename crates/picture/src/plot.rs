@@ -189,8 +189,8 @@ impl Figure {
         };
         let [svg, png] = [named(".svg"), named(".png")];
         let bytes = draw::png(self).map_err(|reason| PictureError::format(&png, reason))?;
-        std::fs::write(&svg, self.svg()).map_err(PictureError::file(&svg))?;
-        std::fs::write(&png, bytes).map_err(PictureError::file(&png))?;
+        crate::whole::write(&svg, self.svg())?;
+        crate::whole::write(&png, bytes)?;
         Ok([svg, png])
     }
 
