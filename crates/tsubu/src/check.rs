@@ -22,41 +22,39 @@ pub fn check(wish: &CheckWish) -> Result<u8, Trouble> {
     )?;
     let (mut run, plan) = (built.simulation, built.plan);
     let c = &plan.constants;
-    println!("{}", checked.scene.title);
-    println!("\nModelled");
-    plan.modelled.iter().for_each(|line| println!("  {line}"));
-    println!("Not modelled");
-    plan.not_modelled
-        .iter()
-        .for_each(|line| println!("  {line}"));
-    println!("\nStep");
-    println!(
+    say!("{}", checked.scene.title);
+    say!("\nModelled");
+    plan.modelled.iter().for_each(|line| say!("  {line}"));
+    say!("Not modelled");
+    plan.not_modelled.iter().for_each(|line| say!("  {line}"));
+    say!("\nStep");
+    say!(
         "  {:.4e} s = {:.1} steps per contact period of {:.4e} s, {}",
         c.dt,
         c.period / c.dt,
         c.period,
         c.scheme.name()
     );
-    println!(
+    say!(
         "  K = k dt^2/m = {:.4}, C = gamma dt/m = {:.4}",
         c.k(),
         c.c()
     );
     for limit in &plan.limits {
-        println!(
+        say!(
             "  {:>6.1} % of the limit for {}",
             100.0 * limit.used,
             limit.name
         );
     }
-    println!("\nSize");
-    println!(
+    say!("\nSize");
+    say!(
         "  {} grains, {:.0} bytes each, lists included: {:.1} MB",
         plan.grains,
         run.bytes_per_grain(),
         plan.grains as f64 * run.bytes_per_grain() / 1e6
     );
-    println!("  {} thread(s), {} vectors", plan.threads, plan.lanes);
+    say!("  {} thread(s), {} vectors", plan.threads, plan.lanes);
     let stable = plan.limits.iter().all(|l| l.used < 1.0);
     if stable || wish.scene.allow_unstable {
         let (start, mut steps) = (Instant::now(), 0);
@@ -70,13 +68,13 @@ pub fn check(wish: &CheckWish) -> Result<u8, Trouble> {
         } else {
             ""
         };
-        println!("\nCost");
-        println!(
+        say!("\nCost");
+        say!(
             "  {} steps{settling}: {:.2e} grain-steps",
             plan.steps,
             plan.grains as f64 * plan.steps as f64
         );
-        println!(
+        say!(
             "  about {} at {:.1} million grain-steps/s, tried just now on the first {steps} steps",
             duration(seconds),
             rate / 1e6

@@ -1,5 +1,7 @@
 //! The command `tsubu`.
 
+#[macro_use]
+mod say;
 mod arguments;
 mod check;
 mod clock;
@@ -34,7 +36,7 @@ fn main() -> ExitCode {
     match done {
         Ok(code) => ExitCode::from(code),
         Err(trouble) => {
-            eprintln!("{trouble}");
+            tell!("{trouble}");
             ExitCode::from(trouble.exit_code())
         }
     }

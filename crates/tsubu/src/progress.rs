@@ -58,7 +58,7 @@ impl Progress {
             }
             None if self.last_line.elapsed() > LINE_EVERY => {
                 self.last_line = Instant::now();
-                eprintln!("{:3.0} %  {text}", 100.0 * share);
+                tell!("{:3.0} %  {text}", 100.0 * share);
             }
             None => {}
         }

@@ -56,7 +56,7 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
         checked.scene.to_resolved_ron().as_bytes(),
     )?;
     folder.make("figures")?;
-    eprintln!(
+    tell!(
         "{}: {} grains, step {:.3e} s, {} thread(s), into {}",
         checked.scene.title,
         plan.grains,
@@ -152,7 +152,7 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     rows.finish()?;
     match stop {
         Some(Stop::Over) => {
-            println!(
+            say!(
                 "{}",
                 ending::words(
                     &*run,
@@ -172,7 +172,7 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
             folder.root().display()
         ))),
         None => {
-            eprintln!(
+            tell!(
                 "stopped by a signal at t = {:.6} s; what was computed is in {}",
                 run.time(),
                 folder.root().display()

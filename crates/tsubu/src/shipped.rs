@@ -14,9 +14,9 @@ const SCENES: [(&str, &str); 1] = [(
 pub fn list() -> Result<u8, Trouble> {
     for (name, text) in SCENES {
         let title = Source::from_text(name, text).check()?.scene.title;
-        println!("{name:<20} {title}");
+        say!("{name:<20} {title}");
     }
-    println!("\nCopy one here to edit it:  tsubu init {}", SCENES[0].0);
+    say!("\nCopy one here to edit it:  tsubu init {}", SCENES[0].0);
     Ok(0)
 }
 
@@ -37,6 +37,6 @@ pub fn init(name: &str) -> Result<u8, Trouble> {
         )));
     }
     tsubu::record::write_whole(Path::new(&file), text.as_bytes())?;
-    println!("wrote {file}; edit it, then:  tsubu run {file}");
+    say!("wrote {file}; edit it, then:  tsubu run {file}");
     Ok(0)
 }
