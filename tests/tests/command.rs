@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use std::path::Path;
-use tsubu_tests::{Scratch, repository, run_in, tree};
+use tsubu_tests::{Scratch, repository, run_in, start_in, tree};
 
 const NUMBERS: [&str; 11] = [
     "angle_of_repose",
@@ -279,6 +279,21 @@ fn check_says_what_is_modelled_and_writes_nothing() {
     over.is_one_message(2).says("is over its limit");
     assert!(over.stdout.contains("% of the limit for"), "{over:#?}");
     assert!(tree(scratch.path()).is_empty());
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_reason_to_panic() {
+    let scratch = Scratch::new("closed_pipe");
+    let mut child = start_in(
+        scratch.path(),
+        &format!("check {}", scene("small_heap.ron")),
+    );
+    drop(child.stdout.take());
+    let outcome = child
+        .wait_with_output()
+        .unwrap_or_else(|error| panic!("{error}"));
+    let words = String::from_utf8_lossy(&outcome.stderr);
+    assert!(outcome.status.success() && words.is_empty(), "{words}");
 }
 
 #[test]
