@@ -196,16 +196,23 @@ where
             types: PhantomData,
             kinds,
         };
-        world.build_lists();
-        world.forces();
+        world.in_pool(|world| {
+            world.build_lists();
+            world.forces();
+        });
         world
     }
 
     /// Takes `steps` steps, or stops early when a grain runs away (see [`health`](Self::health)).
     pub fn advance(&mut self, steps: u64) {
+        self.in_pool(|world| world.take(steps));
+    }
+
+    /// Runs `work` on the world's own threads, if it has some.
+    fn in_pool(&mut self, work: impl FnOnce(&mut Self) + Send) {
         match self.pool.clone() {
-            Some(pool) => pool.install(|| self.take(steps)),
-            None => self.take(steps),
+            Some(pool) => pool.install(|| work(self)),
+            None => work(self),
         }
     }
 
@@ -366,7 +373,7 @@ where
         }
         self.taken_by_removal += self.stored_in_walls()[number];
         self.bodies[number].removed_at = Some(self.now());
-        self.forces();
+        self.in_pool(Self::forces);
     }
 
     /// Changes the constants of the law between grains; its range must stay.
@@ -376,7 +383,7 @@ where
             .iter()
             .flat_map(|a| all.iter().map(|b| law.pair(a, b)))
             .collect();
-        self.forces();
+        self.in_pool(Self::forces);
     }
 
     /// Simulated time in s.
