@@ -27,6 +27,12 @@ impl Ensemble {
         Ok(Self { case, histories })
     }
 
+    /// Rows that every seed has.
+    pub fn rows(&self) -> usize {
+        let rows = self.histories.iter().map(|h| h.rows.len());
+        rows.min().unwrap_or(0)
+    }
+
     /// λ = 2^n.
     pub fn lambda(&self) -> f64 {
         f64::from(1u32 << self.case.coarse)
@@ -48,12 +54,7 @@ impl Ensemble {
 
     /// Times, mean change, and one standard deviation below and above.
     pub fn band(&self, name: &str) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
-        let rows = self
-            .histories
-            .iter()
-            .map(|h| h.rows.len())
-            .min()
-            .unwrap_or(0);
+        let rows = self.rows();
         let t = (0..rows).map(|k| k as f64 * EVERY).collect();
         let all: Vec<(f64, f64)> = (0..rows).map(|k| self.change(name, k)).collect();
         let mean = all.iter().map(|p| p.0).collect();

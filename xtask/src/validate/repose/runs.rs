@@ -7,7 +7,7 @@
 use std::fmt::Write as _;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use tsubu_assemble::{Choices, Simulation, build};
+use tsubu_assemble::{Built, Choices, Simulation, build};
 use tsubu_scene::Source;
 
 /// Between two samples, s.
@@ -26,6 +26,18 @@ pub struct Case {
     pub seed: u64,
     /// Seconds after the removal of the wall.
     pub until: f64,
+    /// What the wall holds back.
+    pub bed: Bed,
+}
+
+/// The bed from which a heap starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bed {
+    /// Filled at random and settled with the case's own stiffness.
+    Own,
+    /// Settled by the same seed at this softening: what is compared is then the run-out alone.
+    /// From stiff to soft, since a soft bed's overlaps would shoot stiff grains apart.
+    SettledAt(u32),
 }
 
 /// What is sampled, in this order.
@@ -75,11 +87,54 @@ impl Case {
             format!("time.step=PerPeriod({})", 20.0 * self.gamma.max(1.0)),
             "still.at_most=20 s".to_owned(),
             format!("time.until={} s", self.until),
+            // The books are looked at where heaps are cheap; at n = 1 the tally would cost minutes.
+            format!("output.energies={}", self.coarse > 1),
         ];
         for set in sets {
             source.set(&set).map_err(|e| e.to_string())?;
         }
         Ok(source)
+    }
+
+    /// The source that runs out from a bed on file. Listed grains are not coarsened, so the coarse grain
+    /// is named outright: under the renormalisation it is a grain of the same material.
+    fn source_from(&self, root: &Path, bed: &Path) -> Result<Source, String> {
+        let lambda = f64::from(1u32 << self.coarse);
+        let sets = [
+            "grains.coarse=0".to_owned(),
+            format!("grains.diameter={} mm", 1.350 * lambda),
+            format!(
+                "grains.law.damping=Equal(\"{} kg/s\")",
+                0.1257 * self.gamma * lambda * lambda
+            ),
+            format!("initial.file={}", bed.display()),
+        ];
+        let mut source = self.source(root)?;
+        for set in sets {
+            source.set(&set).map_err(|e| e.to_string())?;
+        }
+        Ok(source)
+    }
+
+    /// The bed at the moment its wall would go: a file of places, made once.
+    fn bed_at(&self, soften: u32, root: &Path, fingerprint: u64) -> Result<PathBuf, String> {
+        let stiff = Case {
+            soften: f64::from(soften),
+            bed: Bed::Own,
+            until: EVERY,
+            ..*self
+        };
+        let file = stiff.file(root, fingerprint);
+        if !file.exists() {
+            let mut run = build_on_one_thread(&stiff.source(root)?)?.simulation;
+            until_released(&mut *run)?;
+            let mut text = "x,y,z\n".to_owned();
+            for (x, _) in run.state() {
+                let _ = writeln!(text, "{:?},{:?},{:?}", x.x, x.y, x.z);
+            }
+            keep(&file, &text)?;
+        }
+        Ok(file)
     }
 
     /// Kinetic energy per grain over m g d at which the wall goes. Creep to rest is a function of
@@ -98,8 +153,9 @@ impl Case {
             soften,
             seed,
             until,
+            bed,
         } = self;
-        root.join(format!("target/validate/repose/{fingerprint:016x}-n{coarse}-g{gamma}-s{soften}-t{until}-{seed}.csv"))
+        root.join(format!("target/validate/repose/{fingerprint:016x}-n{coarse}-g{gamma}-s{soften}-t{until}-{bed:?}-{seed}.csv"))
     }
 
     /// The history, from the folder of finished runs or run now.
@@ -111,7 +167,13 @@ impl Case {
         {
             return Ok(history);
         }
-        let history = self.run(root)?;
+        let source = match self.bed {
+            Bed::Own => self.source(root)?,
+            Bed::SettledAt(soften) => {
+                self.source_from(root, &self.bed_at(soften, root, fingerprint)?)?
+            }
+        };
+        let history = self.run(&source)?;
         let mut text = format!(
             "{:?},{},{:?}\n",
             history.diameter, history.grains, history.budget
@@ -120,38 +182,19 @@ impl Case {
             let words: Vec<String> = row.iter().map(|v| format!("{v:?}")).collect();
             let _ = writeln!(text, "{}", words.join(","));
         }
-        let parent = file.parent().unwrap_or(root);
-        let keep = std::fs::create_dir_all(parent).and_then(|()| std::fs::write(&file, text));
-        keep.map_err(|e| format!("{}: {e}", file.display()))?;
+        keep(&file, &text)?;
         Ok(history)
     }
 
-    /// Runs on one thread; several cases run side by side.
-    fn run(&self, root: &Path) -> Result<History, String> {
-        let checked = self.source(root)?.check().map_err(|e| e.to_string())?;
-        let built = build(
-            &checked,
-            &Choices {
-                threads: Some(1),
-                ..Choices::default()
-            },
-        )
-        .map_err(|e| e.to_string())?;
+    fn run(&self, source: &Source) -> Result<History, String> {
+        let built = build_on_one_thread(source)?;
         let (mut run, dt) = (built.simulation, built.plan.constants.dt);
-        // Until the wall is gone, in pieces no longer than the gate's own cadence.
-        while run.released_at().is_none() && !run.is_over() {
-            run.look();
-            run.advance(2000);
-        }
-        let released = run
-            .released_at()
-            .ok_or_else(|| format!("{self:?}: {:?}", run.stop()))?;
+        let released = until_released(&mut *run)?;
         let mut history = History {
             diameter: 2.0 * built.plan.constants.kind.radius,
             grains: run.grains(),
             ..History::default()
         };
-        // The removal fell inside a piece: the first row is the next sample, the earlier ones repeat it.
         let rows = (self.until / EVERY).round() as usize;
         for k in 0..=rows {
             let due = ((released + k as f64 * EVERY) / dt).round() as u64;
@@ -166,6 +209,33 @@ impl Case {
         history.budget = budget.unwrap_or(f64::NAN);
         Ok(history)
     }
+}
+
+/// One thread each; several cases run side by side.
+fn build_on_one_thread(source: &Source) -> Result<Built, String> {
+    let choices = Choices {
+        threads: Some(1),
+        ..Choices::default()
+    };
+    let checked = source.check().map_err(|e| e.to_string())?;
+    build(&checked, &choices).map_err(|e| e.to_string())
+}
+
+/// Runs until the wall is gone, to within a few steps, and says when it went.
+fn until_released(run: &mut dyn Simulation) -> Result<f64, String> {
+    run.look();
+    while run.released_at().is_none() && !run.is_over() {
+        run.advance(50);
+    }
+    run.released_at()
+        .ok_or_else(|| format!("the wall was never removed: {:?}", run.stop()))
+}
+
+fn keep(file: &Path, text: &str) -> Result<(), String> {
+    let parent = file.parent().unwrap_or(file);
+    std::fs::create_dir_all(parent)
+        .and_then(|()| std::fs::write(file, text))
+        .map_err(|e| format!("{}: {e}", file.display()))
 }
 
 fn sample(run: &mut dyn Simulation) -> [f64; COLUMNS.len()] {
@@ -207,17 +277,9 @@ pub fn fingerprint(root: &Path) -> Result<u64, String> {
         soften: 100.0,
         seed: 1,
         until: 0.1,
+        bed: Bed::Own,
     };
-    let checked = case.source(root)?.check().map_err(|e| e.to_string())?;
-    let mut run = build(
-        &checked,
-        &Choices {
-            threads: Some(1),
-            ..Choices::default()
-        },
-    )
-    .map_err(|e| e.to_string())?
-    .simulation;
+    let mut run = build_on_one_thread(&case.source(root)?)?.simulation;
     run.advance(20_000);
     let mut hasher = DefaultHasher::new();
     for (x, v) in run.state() {
