@@ -144,7 +144,9 @@ where
             gate.decide(&self.world, &mut changes);
         }
         for change in changes {
-            let Change::RemoveBody(number) = change;
+            let Change::RemoveBody(number) = change else {
+                continue;
+            };
             self.world.remove_body(number);
             if let Some(release) = self.release.as_mut().filter(|r| r.body == number) {
                 release.at_step = Some(self.world.steps());

@@ -5,8 +5,10 @@ use crate::health::Health;
 use crate::kinds::KindSet;
 use crate::line::Layout;
 use crate::world::{Tally, World, touch_of};
+use glam::DVec3;
 use tsubu_model::{
-    BodyState, ContactLaw, Energies, Kind, Numbers, SpinState, TouchingPair, Vector, View,
+    BodyState, ContactLaw, Energies, Kind, Numbers, Passage, Pose, SpinState, TouchingPair, Vector,
+    View,
 };
 
 impl<D, S, K, L, W, T> World<D, S, K, L, W, T>
@@ -97,8 +99,14 @@ where
                 name: b.name.clone(),
                 removed_at: b.removed_at,
                 force: force(k),
+                torque: DVec3::ZERO,
+                pose: Pose::default(),
             })
             .collect()
+    }
+
+    fn passages(&self) -> Vec<Passage> {
+        Vec::new()
     }
 
     fn gravity(&self) -> D::V {

@@ -4,11 +4,11 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{Fake, lattice, named, random_fill};
+use common::{Fake, body, lattice, named, random_fill};
 use glam::{DVec2, DVec3};
 use tsubu_measure::slope::{Measured, Stand, crest_height, flank_angle, front, runout_angle};
 use tsubu_measure::{Deposit, Heap, HeapOptions, Profile, ProfileOptions, Slices};
-use tsubu_model::{BodyState, Observer, Plane, Space, Still};
+use tsubu_model::{Observer, Plane, Space, Still};
 
 /// Everything about a heap against a wall at x = 0.
 struct Found {
@@ -344,11 +344,7 @@ fn heap(release: Option<&str>) -> Heap {
 fn the_observer_starts_its_clock_at_the_release() {
     let (size, surface) = wedge(20.0, 20.0);
     let mut view = Fake::<Space>::of(1.0, random_fill::<Space>(6, 1.0, size, &surface));
-    view.bodies.push(BodyState {
-        name: "gate".into(),
-        removed_at: None,
-        force: DVec3::ZERO,
-    });
+    view.bodies.push(body("gate", DVec3::ZERO, None));
     let mut heap = heap(Some("gate"));
     let heap: &mut dyn Observer<Space, Still> = &mut heap;
     view.time = 1.0;

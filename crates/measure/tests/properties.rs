@@ -2,12 +2,12 @@
 
 mod common;
 
-use common::{Dice, Fake, lattice, named, random_fill};
+use common::{Dice, Fake, body, lattice, named, random_fill};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use tsubu_measure::slope::{Stand, crest_height, flank_angle, front, runout_angle};
 use tsubu_measure::{Balance, Deposit, Line, Profile, ProfileOptions, Structure};
-use tsubu_model::{BodyState, Dim, Kind, Observer, Plane, Space, Still, Vector};
+use tsubu_model::{Dim, Kind, Observer, Plane, Space, Still, Vector};
 
 fn options(bin: f64) -> ProfileOptions {
     ProfileOptions {
@@ -204,14 +204,9 @@ fn a_frozen_floor_is_not_part_of_the_deposit() {
 fn the_floor_carries_the_grains() {
     let mut view = Fake::<Plane>::of(1.0, vec![DVec2::new(0.0, 0.5), DVec2::new(2.0, 0.5)]);
     let weight = 2.0 * 1000.0 * std::f64::consts::PI / 6.0 * 9.81;
-    let body = |force, removed_at| BodyState {
-        name: "b".into(),
-        removed_at,
-        force,
-    };
     view.bodies = vec![
-        body(DVec2::new(3.0, -weight), None),
-        body(DVec2::new(7.0, 7.0), Some(0.5)),
+        body("b", DVec2::new(3.0, -weight), None),
+        body("b", DVec2::new(7.0, 7.0), Some(0.5)),
     ];
     let mut balance = Balance::new();
     let row = Observer::<Plane, Still>::see(&mut balance, &view);

@@ -17,6 +17,7 @@ mod constants;
 mod contact;
 mod dim;
 mod kind;
+mod motion;
 mod numbers;
 mod spin;
 mod surface;
@@ -26,7 +27,10 @@ pub use constants::{Constants, Quantity};
 pub use contact::{ContactLaw, Linear, Push, Touch};
 pub use dim::{Dim, Domain, Plane, Space, Vector};
 pub use kind::Kind;
+pub use motion::{Course, Motion, Pose, Shift, Span, Turn};
 pub use numbers::Numbers;
 pub use spin::{Nothing, SpinState, Still};
-pub use surface::{Hit, HitBuffer, Surface};
-pub use view::{BodyState, Change, Curve, Energies, Gate, Observer, Reading, TouchingPair, View};
+pub use surface::{Hit, HitBuffer, Shell, Surface};
+pub use view::{
+    BodyState, Change, Curve, Energies, Gate, Observer, Passage, Reading, TouchingPair, View,
+};

@@ -28,6 +28,15 @@ impl<D: Dim> Default for HitBuffer<D> {
     }
 }
 
+/// Triangles to draw: what a frame and a picture show of a surface.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shell {
+    /// Corners in m.
+    pub vertices: Vec<glam::DVec3>,
+    /// Three corners each, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
 /// A surface in its own frame. Distances are signed: positive outside.
 pub trait Surface<D: Dim>: Send + Sync {
     /// A distance that the true one is not below; cheap. Far grains are skipped by it.
@@ -36,6 +45,14 @@ pub trait Surface<D: Dim>: Send + Sync {
     fn hits(&self, x: &[D::V], reach: &[f64], out: &mut HitBuffer<D>);
     /// Outline to draw, as three-dimensional line segments within the box `low`–`high`.
     fn outline(&self, low: glam::DVec3, high: glam::DVec3) -> Vec<[glam::DVec3; 2]>;
+    /// The corners of a box that holds the whole surface; `None` if it has no end.
+    fn bounds(&self) -> Option<[glam::DVec3; 2]> {
+        None
+    }
+    /// Triangles to draw; `None` for surfaces that are drawn by their outline.
+    fn shell(&self) -> Option<Shell> {
+        None
+    }
 }
 
 impl<D: Dim> Hit<D> {

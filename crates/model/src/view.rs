@@ -21,12 +21,16 @@ pub struct Energies {
     pub lost_wall_friction: f64,
     /// Elastic energy that left with a removed wall.
     pub taken_by_removal: f64,
+    /// Work that moving bodies have done on the grains so far.
+    pub work_of_bodies: f64,
+    /// What the grains that came brought, less what those that went took along.
+    pub brought_by_grains: f64,
 }
 
 impl Energies {
-    /// What the run still holds plus what it has lost: constant if the books close.
+    /// What the run still holds plus what it has lost less what it was given: constant if the books close.
     pub fn total(&self) -> f64 {
-        self.held()
+        self.held() - self.work_of_bodies - self.brought_by_grains
             + self.lost_damping
             + self.lost_wall_damping
             + self.lost_wall_friction
@@ -59,6 +63,32 @@ pub struct BodyState<D: Dim> {
     pub removed_at: Option<f64>,
     /// Sum of the forces of all grains on it, in N.
     pub force: D::V,
+    /// Their torque about the body's pivot (a point of its axis of rotation), in N m.
+    pub torque: glam::DVec3,
+    /// Where it is and how it moves.
+    pub pose: crate::Pose,
+}
+
+impl<D: Dim> BodyState<D> {
+    /// Power in W that the body's drive gives to the grains: −(force · velocity + torque · spin).
+    pub fn power(&self) -> f64 {
+        -(D::to_space(self.force).dot(self.pose.velocity) + self.torque.dot(self.pose.spin))
+    }
+}
+
+/// Grains that came or went through one gate since the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Passage {
+    /// The gate's name in the scene.
+    pub name: String,
+    /// How many came into the scene.
+    pub came: u64,
+    /// How many went out of it.
+    pub went: u64,
+    /// How many it moved to another place: gone and come in one.
+    pub moved: u64,
+    /// Mass of those that went or were moved, in kg.
+    pub mass: f64,
 }
 
 /// A running simulation, read only.
@@ -81,6 +111,8 @@ pub trait View<D: Dim, S: SpinState> {
     fn identity(&self, i: usize) -> u32;
     /// Bodies in the order of the scene.
     fn bodies(&self) -> Vec<BodyState<D>>;
+    /// Grains that came and went, one entry per gate that can let them.
+    fn passages(&self) -> Vec<Passage>;
     /// Gravity in m/s².
     fn gravity(&self) -> D::V;
     /// The energy budget; walks all contacts.
@@ -94,6 +126,33 @@ pub trait View<D: Dim, S: SpinState> {
 pub enum Change {
     /// Take away body number `.0`.
     RemoveBody(usize),
+    /// Body number `.0`, which was waiting for it, begins its motion.
+    StartBody(usize),
+    /// A new grain, at rest.
+    Add {
+        /// Centre in m.
+        position: glam::DVec3,
+        /// Number of its kind.
+        kind: usize,
+        /// Through which gate.
+        gate: usize,
+    },
+    /// A grain goes.
+    Remove {
+        /// Which.
+        identity: u32,
+        /// Through which gate.
+        gate: usize,
+    },
+    /// A grain is put elsewhere, at rest, and forgets its contacts.
+    Move {
+        /// Which.
+        identity: u32,
+        /// New centre in m.
+        position: glam::DVec3,
+        /// Through which gate.
+        gate: usize,
+    },
 }
 
 /// Something that changes the scene while it runs: a wall that goes when the grains are still.

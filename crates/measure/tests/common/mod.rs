@@ -1,6 +1,8 @@
 //! A simulation that does not run: grains placed by hand, and fills of known shape.
 
-use tsubu_model::{BodyState, Dim, Energies, Kind, Reading, Still, TouchingPair, Vector, View};
+use tsubu_model::{
+    BodyState, Dim, Energies, Kind, Passage, Pose, Reading, Still, TouchingPair, Vector, View,
+};
 
 /// Grains, their touching pairs and a clock.
 pub struct Fake<D: Dim> {
@@ -9,6 +11,18 @@ pub struct Fake<D: Dim> {
     pub kinds: Vec<Kind>,
     pub pairs: Vec<(usize, usize, f64)>,
     pub bodies: Vec<BodyState<D>>,
+    pub passages: Vec<Passage>,
+}
+
+/// A body at rest that feels this force.
+pub fn body<D: Dim>(name: &str, force: D::V, removed_at: Option<f64>) -> BodyState<D> {
+    BodyState {
+        name: name.into(),
+        removed_at,
+        force,
+        torque: glam::DVec3::ZERO,
+        pose: Pose::default(),
+    }
 }
 
 impl<D: Dim> Fake<D> {
@@ -21,6 +35,7 @@ impl<D: Dim> Fake<D> {
             kinds,
             pairs: Vec::new(),
             bodies: Vec::new(),
+            passages: Vec::new(),
         }
     }
 }
@@ -46,6 +61,9 @@ impl<D: Dim> View<D, Still> for Fake<D> {
     }
     fn bodies(&self) -> Vec<BodyState<D>> {
         self.bodies.clone()
+    }
+    fn passages(&self) -> Vec<Passage> {
+        self.passages.clone()
     }
     fn gravity(&self) -> D::V {
         D::from_space(glam::DVec3::new(0.0, 0.0, -9.81))
