@@ -9,7 +9,7 @@ use tsubu_engine::{
     Body, Lanes, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally, World,
 };
 use tsubu_integrate::Scheme;
-use tsubu_model::{ContactLaw, Domain, Kind, Space, Still};
+use tsubu_model::{ContactLaw, Domain, Kind, Motion, Space, Still};
 use tsubu_neighbors::{CellGrid, ChunkList};
 use tsubu_sdf::HalfSpace;
 
@@ -56,6 +56,8 @@ fn world<L: ContactLaw<Space, Still>, T: Tally>(
             },
             touches_at: TouchesAt::Surface,
             removed_at: None,
+            motion: Motion::default(),
+            waits: false,
         }],
         domain: Domain { period },
         gravity: DVec3::new(0.0, 0.0, -9.80665),
@@ -65,6 +67,7 @@ fn world<L: ContactLaw<Space, Still>, T: Tally>(
         lanes,
         pool: None,
         grains,
+        gates: Vec::new(),
     })
 }
 

@@ -10,7 +10,9 @@ use tsubu_engine::{
     Body, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally, World,
 };
 use tsubu_measure::{Balance, Energy, Heap, HeapOptions, Slices, Structure};
-use tsubu_model::{ContactLaw, Dim, Domain, Gate, Observer, Plane, Space, Still, Surface, Vector};
+use tsubu_model::{
+    ContactLaw, Dim, Domain, Gate, Motion, Observer, Plane, Space, Still, Surface, Vector,
+};
 use tsubu_scene as scene;
 use tsubu_scene::{Axis, Checked, Removal, SceneError, Shape};
 use tsubu_sdf::HalfSpace;
@@ -128,6 +130,8 @@ impl<D: Layout + Slices> Parts<'_, D> {
                     scene::TouchesAt::Centre => TouchesAt::Centre,
                 },
                 removed_at: None,
+                motion: Motion::default(),
+                waits: false,
             })
             .collect();
         let release = release_of(scene);
@@ -150,6 +154,7 @@ impl<D: Layout + Slices> Parts<'_, D> {
             lanes: self.lanes,
             pool: self.pool,
             grains: self.grains,
+            gates: Vec::new(),
         });
         let removal = WallRemoval::of(scene);
         let gates: Vec<Box<dyn Gate<D, Still>>> = if removal.is_needed() {

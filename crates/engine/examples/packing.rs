@@ -5,7 +5,7 @@ use std::sync::Arc;
 use tsubu_contact::{Repulsion, RepulsiveWall};
 use tsubu_engine::{Body, Lanes, NoTally, OneKind, Placed, Setup, TouchesAt, World};
 use tsubu_integrate::Scheme;
-use tsubu_model::{Domain, Kind, Space, Still, View};
+use tsubu_model::{Domain, Kind, Motion, Space, Still, View};
 use tsubu_sdf::HalfSpace;
 
 fn main() {
@@ -51,6 +51,8 @@ fn main() {
                 },
                 touches_at: TouchesAt::Centre,
                 removed_at: None,
+                motion: Motion::default(),
+                waits: false,
             }],
             domain: Domain {
                 period: DVec3::new(5.832e-2, 5.832e-2, f64::INFINITY),
@@ -64,6 +66,7 @@ fn main() {
             lanes,
             pool,
             grains,
+            gates: Vec::new(),
         });
     world.advance(20);
     let start = std::time::Instant::now();

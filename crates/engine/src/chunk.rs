@@ -1,7 +1,8 @@
 //! A chunk: a fixed run of grains in sorted order, the unit of work of a thread.
 //! Sums are kept chunk by chunk and added in order, so the number of threads changes no bit.
 
-use tsubu_model::{Dim, HitBuffer, Vector};
+use glam::DVec3;
+use tsubu_model::{Dim, HitBuffer};
 use tsubu_neighbors::ChunkList;
 
 /// Grains per chunk.
@@ -21,6 +22,17 @@ pub(crate) struct WallPart<D: Dim> {
     pub slot: u32,
     pub viscous: D::V,
     pub slip: D::V,
+    pub total: D::V,
+    /// Velocity of the wall at the contact.
+    pub wall: D::V,
+}
+
+/// What the grains of a chunk do to a body.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Load<V> {
+    pub force: V,
+    /// About the body's pivot.
+    pub torque: DVec3,
 }
 
 /// Work space and partial sums of a chunk. Vectors are cleared and reused: a step allocates nothing.
@@ -32,10 +44,11 @@ pub(crate) struct Chunk<D: Dim> {
     pub reaches: Vec<f64>,
     pub hits: HitBuffer<D>,
     pub wall_parts: Vec<WallPart<D>>,
-    /// Energy lost since the start to damping between grains, wall damping, wall friction, in J.
-    pub lost: [f64; 3],
-    /// Force on each body in the last step.
-    pub on_bodies: Vec<D::V>,
+    /// Energy lost since the start to damping between grains, wall damping, wall friction, and the
+    /// work that bodies have done, in J.
+    pub books: [f64; 4],
+    /// Force and torque on each body in the last step.
+    pub on_bodies: Vec<Load<D::V>>,
     /// Square of the largest drift speed of the last step.
     pub fastest2: f64,
     /// Square of the largest change of velocity in the last sweep of the last solve.
@@ -53,8 +66,8 @@ impl<D: Dim> Chunk<D> {
             reaches: Vec::new(),
             hits: HitBuffer::default(),
             wall_parts: Vec::new(),
-            lost: [0.0; 3],
-            on_bodies: vec![D::V::ZERO; bodies],
+            books: [0.0; 4],
+            on_bodies: vec![Load::default(); bodies],
             fastest2: 0.0,
             last_sweep2: 0.0,
             trouble: None,
@@ -65,7 +78,8 @@ impl<D: Dim> Chunk<D> {
         self.list.bytes()
             + size_of::<Self>()
             + self.near.capacity() * size_of::<Near>()
-            + (self.points.capacity() + self.on_bodies.capacity()) * size_of::<D::V>()
+            + self.points.capacity() * size_of::<D::V>()
+            + self.on_bodies.capacity() * size_of::<Load<D::V>>()
             + self.reaches.capacity() * 8
             + self.hits.hits.capacity() * size_of::<tsubu_model::Hit<D>>()
             + self.wall_parts.capacity() * size_of::<WallPart<D>>()

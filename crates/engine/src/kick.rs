@@ -43,18 +43,22 @@ impl Kick<'_> {
             self.drift::<D>(line, old, new, slot, &mut fastest2, &mut trouble);
         }
         if T::ON {
-            chunk.lost[0] -= 0.5 * self.h * lost;
-            let mut walls = [0.0; 2];
+            chunk.books[0] -= 0.5 * self.h * lost;
+            let mut walls = [0.0; 3];
             for part in &chunk.wall_parts {
                 let line = &lines[part.slot as usize];
                 let mass = pick::<K, _>(self.kinds, line.kind::<D>()).mass;
                 let mean =
                     line.velocity::<D>() + force[part.slot as usize] * (-0.5 * self.h / mass);
-                walls[0] += part.viscous.dot(mean);
-                walls[1] += part.slip.dot(mean);
+                // What is lost is the work against the wall; what the wall moves, it works.
+                let against = mean - part.wall;
+                walls[0] += part.viscous.dot(against);
+                walls[1] += part.slip.dot(against);
+                walls[2] += part.total.dot(part.wall);
             }
-            chunk.lost[1] -= self.h * walls[0];
-            chunk.lost[2] -= self.h * walls[1];
+            chunk.books[1] -= self.h * walls[0];
+            chunk.books[2] -= self.h * walls[1];
+            chunk.books[3] += self.h * walls[2];
         }
         self.note(chunk, fastest2, trouble);
     }

@@ -4,8 +4,10 @@
 //! `tsubu-model`. A step cannot fail; trouble is a [`Health`] read outside the loop.
 //!
 //! Read in this order: `line` (what the force loop reads of a grain), `pass` (the force loop),
-//! `lanes` (the fenced vector module), `walls`, `kick`, `world` (one step), `sweeps`, `rebuild`, `look`.
+//! `lanes` (the fenced vector module), `walls`, `near`, `kick`, `world` (one step), `sweeps`, `rebuild`,
+//! `changes`, `look`.
 
+mod changes;
 mod chunk;
 mod health;
 mod kick;
@@ -13,6 +15,7 @@ mod kinds;
 mod lanes;
 mod line;
 mod look;
+mod near;
 mod pass;
 mod rebuild;
 mod sweeps;

@@ -7,8 +7,7 @@ use crate::line::Layout;
 use crate::world::{Tally, World, touch_of};
 use glam::DVec3;
 use tsubu_model::{
-    BodyState, ContactLaw, Energies, Kind, Numbers, Passage, Pose, SpinState, TouchingPair, Vector,
-    View,
+    BodyState, ContactLaw, Energies, Kind, Numbers, Passage, SpinState, TouchingPair, Vector, View,
 };
 
 impl<D, S, K, L, W, T> World<D, S, K, L, W, T>
@@ -87,26 +86,31 @@ where
     }
 
     fn bodies(&self) -> Vec<BodyState<D>> {
-        let force = |k: usize| {
+        let load = |k: usize| {
             self.chunks
                 .iter()
-                .fold(D::V::ZERO, |sum, c| sum + c.on_bodies[k])
+                .fold((D::V::ZERO, DVec3::ZERO), |sum, c| {
+                    (sum.0 + c.on_bodies[k].force, sum.1 + c.on_bodies[k].torque)
+                })
         };
         self.bodies
             .iter()
             .enumerate()
-            .map(|(k, b)| BodyState {
-                name: b.name.clone(),
-                removed_at: b.removed_at,
-                force: force(k),
-                torque: DVec3::ZERO,
-                pose: Pose::default(),
+            .map(|(k, b)| {
+                let (force, torque) = load(k);
+                BodyState {
+                    name: b.name.clone(),
+                    removed_at: b.removed_at,
+                    force,
+                    torque,
+                    pose: self.poses[k],
+                }
             })
             .collect()
     }
 
     fn passages(&self) -> Vec<Passage> {
-        Vec::new()
+        self.passages.clone()
     }
 
     fn gravity(&self) -> D::V {
@@ -132,7 +136,13 @@ where
             e.elastic += L::stored(pair, &touch, &L::Memory::zero());
         });
         e.elastic_walls = self.stored_in_walls().iter().sum();
-        [e.lost_damping, e.lost_wall_damping, e.lost_wall_friction] = self.lost();
+        [
+            e.lost_damping,
+            e.lost_wall_damping,
+            e.lost_wall_friction,
+            e.work_of_bodies,
+        ] = self.books();
+        e.brought_by_grains = self.brought_by_grains;
         e.taken_by_removal = self.taken();
         e
     }

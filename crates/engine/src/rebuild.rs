@@ -1,7 +1,7 @@
 //! When and how the lists are built anew. Nothing here looks at a clock or a number of threads.
 
-use crate::chunk::{CHUNK, Chunk, Near};
-use crate::kinds::{KindSet, pick};
+use crate::chunk::{CHUNK, Chunk};
+use crate::kinds::KindSet;
 use crate::line::Layout;
 use crate::world::{Tally, World};
 use rayon::prelude::*;
@@ -32,6 +32,7 @@ where
             .fold(0.0, f64::max)
             .sqrt();
         self.moved += fastest * self.dt();
+        self.keep_near_valid();
         let half = 0.5 * self.skin;
         if self.moved <= half {
             return;
@@ -65,6 +66,7 @@ where
     /// Wraps, sorts in space, builds the list of every chunk and notes who is near which body.
     pub(crate) fn build_lists(&mut self) {
         let n = self.identity.len();
+        self.fit_chunks();
         for line in &mut self.lines[..n] {
             line.set_position::<D>(self.domain.wrap(line.position::<D>()));
         }
@@ -78,8 +80,7 @@ where
         for (home, line) in self.home.iter_mut().zip(lines) {
             *home = line.position::<D>();
         }
-        let (domain, skin, bodies, pairs) =
-            (self.domain, self.skin, &self.bodies, &self.wall_pairs);
+        let domain = self.domain;
         let work = |number: usize, chunk: &mut Chunk<D>| {
             let own = number * CHUNK..((number + 1) * CHUNK).min(n);
             chunk.list.build(
@@ -90,23 +91,6 @@ where
                 cut,
                 n as u32,
             );
-            chunk.near.clear();
-            for (body, (wall, pairs)) in bodies
-                .iter()
-                .zip(pairs)
-                .enumerate()
-                .filter(|(_, (b, _))| b.removed_at.is_none())
-            {
-                for i in own.clone() {
-                    let reach = pick::<K, _>(pairs, lines[i].kind::<D>()).reach;
-                    if wall.surface.lower_bound(lines[i].position::<D>()) < reach + skin {
-                        chunk.near.push(Near {
-                            body: body as u32,
-                            slot: (i - own.start) as u32,
-                        });
-                    }
-                }
-            }
             // The fenced module reads lines by these indices without looking again.
             assert!(
                 chunk
@@ -127,6 +111,7 @@ where
                 work(number, chunk);
             }
         }
+        self.note_near_bodies();
         self.build_scratch = grid.bytes() + grid.bytes() / 2 + reorder.bytes();
         self.moved = 0.0;
         self.built_at = self.steps;

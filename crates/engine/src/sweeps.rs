@@ -78,6 +78,7 @@ where
         let walls = WallJob::<D, S, W> {
             bodies: &self.bodies,
             pairs: &self.wall_pairs,
+            poses: &self.poses,
             dt: self.dt,
         };
         for (number, (chunk, damping)) in self

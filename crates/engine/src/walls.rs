@@ -1,11 +1,14 @@
 //! Bodies and the wall pass: the same kind of law as between grains, with a `Touch` made from a surface's hit.
 
-use crate::chunk::{Chunk, WallPart};
+use crate::chunk::{Chunk, Load, WallPart};
 use crate::kinds::{KindSet, pick};
 use crate::line::{Layout, Line};
 use crate::world::Tally;
+use glam::DVec3;
 use std::sync::Arc;
-use tsubu_model::{ContactLaw, Kind, Linear, Numbers, Push, SpinState, Surface, Touch, Vector};
+use tsubu_model::{
+    ContactLaw, Kind, Linear, Motion, Numbers, Pose, Push, SpinState, Surface, Touch, Vector,
+};
 
 /// Where a grain touches a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +31,10 @@ pub struct Body<D: Layout, W> {
     pub touches_at: TouchesAt,
     /// When it was taken away, in s.
     pub removed_at: Option<f64>,
+    /// How it moves.
+    pub motion: Motion,
+    /// True while the motion waits for [`World::start_body`](crate::World::start_body).
+    pub waits: bool,
 }
 
 /// Constants of a body against one kind of grain.
@@ -43,6 +50,46 @@ pub(crate) struct WallPair<P> {
 }
 
 impl<D: Layout, W> Body<D, W> {
+    /// Where the body is at time `t`, and how it moves.
+    pub(crate) fn pose(&self, t: f64) -> Pose {
+        if self.waits {
+            return self.motion.at(f64::NEG_INFINITY);
+        }
+        self.motion.at(t)
+    }
+
+    /// True if the body's frame is not the world's.
+    pub(crate) fn is_moved(&self) -> bool {
+        !self.motion.is_rest()
+    }
+
+    /// A speed in m/s that no point of its surface exceeds; infinite for a surface without end that turns.
+    pub(crate) fn top_speed(&self) -> f64 {
+        if self.waits {
+            return 0.0;
+        }
+        let Some(turn) = self.motion.turn else {
+            return self.motion.top_speed(0.0);
+        };
+        let furthest = self.surface.bounds().map_or(f64::INFINITY, |[low, high]| {
+            let from_axis = |corner: DVec3| {
+                let arm = corner - turn.point;
+                (arm - turn.axis * arm.dot(turn.axis)).length()
+            };
+            (0..8)
+                .map(|k| {
+                    let pick = |bit: usize, a: f64, b: f64| if k >> bit & 1 == 0 { a } else { b };
+                    from_axis(DVec3::new(
+                        pick(0, low.x, high.x),
+                        pick(1, low.y, high.y),
+                        pick(2, low.z, high.z),
+                    ))
+                })
+                .fold(0.0, f64::max)
+        });
+        self.motion.top_speed(furthest)
+    }
+
     pub(crate) fn pairs<S: SpinState>(&self, kinds: &[Kind]) -> Vec<WallPair<W::Pair>>
     where
         W: ContactLaw<D, S>,
@@ -72,15 +119,29 @@ pub(crate) struct WallJob<'a, D: Layout, S: SpinState, W: ContactLaw<D, S>> {
     pub bodies: &'a [Body<D, W>],
     /// Per body, per kind.
     pub pairs: &'a [Vec<WallPair<W::Pair>>],
+    /// Where each body is.
+    pub poses: &'a [Pose],
     pub dt: f64,
 }
 
-/// Calls `each(body, slot, touch, pair)` for every contact of the chunk's grains with bodies.
+/// One contact of a grain with a body, in the world's frame.
+struct Contact<'p, D: Layout, S: SpinState, P> {
+    body: usize,
+    slot: usize,
+    touch: Touch<D, S>,
+    pair: &'p P,
+    /// Velocity of the wall at the contact.
+    wall: D::V,
+    /// From the body's pivot to the contact.
+    arm: DVec3,
+}
+
+/// Calls `each` for every contact of the chunk's grains with bodies.
 fn contacts<D, S, K, W>(
     job: &WallJob<'_, D, S, W>,
     lines: &[Line],
     chunk: &mut Chunk<D>,
-    mut each: impl FnMut(&mut Chunk<D>, usize, usize, &Touch<D, S>, &W::Pair),
+    mut each: impl FnMut(&mut Chunk<D>, Contact<'_, D, S, W::Pair>),
 ) where
     D: Layout,
     S: SpinState,
@@ -96,12 +157,18 @@ fn contacts<D, S, K, W>(
                 .take_while(|n| n.body as usize == number)
                 .count();
         if job.bodies[number].removed_at.is_none() {
+            let (pose, moved) = (&job.poses[number], job.bodies[number].is_moved());
             chunk.points.clear();
             chunk.reaches.clear();
             chunk.hits.hits.clear();
             for near in &chunk.near[from..to] {
                 let line = &lines[near.slot as usize];
-                chunk.points.push(line.position::<D>());
+                let x = line.position::<D>();
+                chunk.points.push(if moved {
+                    D::from_space(pose.to_body(D::to_space(x)))
+                } else {
+                    x
+                });
                 chunk
                     .reaches
                     .push(pick::<K, _>(&job.pairs[number], line.kind::<D>()).reach);
@@ -115,14 +182,35 @@ fn contacts<D, S, K, W>(
                 let line = &lines[slot];
                 let wall = pick::<K, _>(&job.pairs[number], line.kind::<D>());
                 let s = (hit.distance + wall.offset).max(wall.least);
+                let normal = if moved {
+                    D::from_space(pose.direction(D::to_space(hit.normal)))
+                } else {
+                    hit.normal
+                };
+                let contact = D::to_space(line.position::<D>() - normal * hit.distance);
+                let motion = if moved {
+                    D::from_space(pose.velocity_at(contact))
+                } else {
+                    D::V::ZERO
+                };
                 let touch = Touch {
-                    apart: hit.normal * s,
-                    velocity: line.velocity::<D>(),
+                    apart: normal * s,
+                    velocity: line.velocity::<D>() - motion,
                     r2: s * s,
                     reach: 2.0 * line.0[D::RADIUS],
                     spin: Default::default(),
                 };
-                each(chunk, number, slot, &touch, &wall.pair);
+                each(
+                    chunk,
+                    Contact {
+                        body: number,
+                        slot,
+                        touch,
+                        pair: &wall.pair,
+                        wall: motion,
+                        arm: pose.arm(contact),
+                    },
+                );
             }
         }
         from = to;
@@ -143,17 +231,21 @@ pub(crate) fn wall_forces<D, S, K, W, T>(
     T: Tally,
 {
     chunk.wall_parts.clear();
-    chunk.on_bodies.fill(D::V::ZERO);
-    contacts::<D, S, K, W>(job, lines, chunk, |chunk, body, slot, touch, pair| {
-        let push: Push<D, S> = W::force(pair, touch, &mut W::Memory::zero(), job.dt);
+    chunk.on_bodies.fill(Load::default());
+    contacts::<D, S, K, W>(job, lines, chunk, |chunk, at| {
+        let push: Push<D, S> = W::force(at.pair, &at.touch, &mut W::Memory::zero(), job.dt);
         let total = push.total();
-        force[slot] += total;
-        chunk.on_bodies[body] += -total;
+        force[at.slot] += total;
+        let load = &mut chunk.on_bodies[at.body];
+        load.force += -total;
+        load.torque -= at.arm.cross(D::to_space(total));
         if T::ON {
             chunk.wall_parts.push(WallPart {
-                slot: slot as u32,
+                slot: at.slot as u32,
                 viscous: push.viscous,
                 slip: push.slip,
+                total,
+                wall: at.wall,
             });
         }
     });
@@ -171,8 +263,8 @@ pub(crate) fn wall_damping<D, S, K, W>(
     K: KindSet,
     W: ContactLaw<D, S>,
 {
-    contacts::<D, S, K, W>(job, lines, chunk, |_, _, slot, touch, pair| {
-        damping[slot] += strongest(&W::linear(pair, touch, job.dt));
+    contacts::<D, S, K, W>(job, lines, chunk, |_, at| {
+        damping[at.slot] += strongest(&W::linear(at.pair, &at.touch, job.dt));
     });
 }
 
@@ -188,8 +280,8 @@ pub(crate) fn wall_energy<D, S, K, W>(
     K: KindSet,
     W: ContactLaw<D, S>,
 {
-    contacts::<D, S, K, W>(job, lines, chunk, |_, body, _, touch, pair| {
-        stored[body] += W::stored(pair, touch, &W::Memory::zero());
+    contacts::<D, S, K, W>(job, lines, chunk, |_, at| {
+        stored[at.body] += W::stored(at.pair, &at.touch, &W::Memory::zero());
     });
 }
 

@@ -12,7 +12,9 @@ use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::sync::Arc;
 use tsubu_integrate::{Drift, Scheme};
-use tsubu_model::{ContactLaw, Dim, Domain, Kind, Numbers, SpinState, Touch, Vector};
+use tsubu_model::{
+    ContactLaw, Dim, Domain, Kind, Numbers, Passage, Pose, SpinState, Touch, Vector,
+};
 
 /// Whether the work of damping and friction is summed, as a type: a run that does not ask does not pay.
 pub trait Tally: Send + Sync + 'static {
@@ -69,6 +71,8 @@ pub struct Setup<D: Layout, K, L, W> {
     pub pool: Option<Arc<rayon::ThreadPool>>,
     /// The grains; the index is the identity.
     pub grains: Vec<Placed<D>>,
+    /// Names of the gates through which grains come and go; [`Change`](tsubu_model::Change) numbers them.
+    pub gates: Vec<String>,
 }
 
 /// A running scene. `K`: one kind or several; `L`, `W`: laws between grains and against walls;
@@ -103,6 +107,12 @@ pub struct World<
     pub(crate) base: Vec<D::V>,
     pub(crate) damping: Vec<f64>,
     pub(crate) chunks: Vec<Chunk<D>>,
+    /// Where each body is, at the time of the last forces.
+    pub(crate) poses: Vec<Pose>,
+    /// How far each body may have moved since the grains near it were noted, in m.
+    pub(crate) body_moved: Vec<f64>,
+    pub(crate) passages: Vec<Passage>,
+    pub(crate) next_identity: u32,
 
     pub(crate) range: f64,
     pub(crate) skin: f64,
@@ -110,10 +120,15 @@ pub struct World<
     /// No grain has moved further than this since the last list build.
     pub(crate) moved: f64,
     pub(crate) steps: u64,
+    /// True from a drift that comes before the forces to the end of its step.
+    drifted: bool,
     pub(crate) built_at: u64,
     pub(crate) builds: u64,
     pub(crate) build_scratch: usize,
     taken_by_removal: f64,
+    pub(crate) brought_by_grains: f64,
+    /// The books of chunks that are no longer there.
+    pub(crate) closed_books: [f64; 4],
     health: Health,
     types: PhantomData<(S, T)>,
 }
@@ -141,6 +156,7 @@ where
             lanes,
             pool,
             grains,
+            gates,
         } = setup;
         let all = kinds.all();
         let pairs: Vec<L::Pair> = all
@@ -169,6 +185,10 @@ where
             chunks: (0..n.div_ceil(CHUNK))
                 .map(|_| Chunk::new(bodies.len()))
                 .collect(),
+            poses: bodies.iter().map(|b| b.pose(0.0)).collect(),
+            body_moved: vec![0.0; bodies.len()],
+            passages: gates.into_iter().map(Passage::of).collect(),
+            next_identity: n as u32,
             bodies,
             domain,
             gravity,
@@ -188,10 +208,13 @@ where
             skin_is_fixed: skin.is_some(),
             moved: 0.0,
             steps: 0,
+            drifted: false,
             built_at: 0,
             builds: 0,
             build_scratch: 0,
             taken_by_removal: 0.0,
+            brought_by_grains: 0.0,
+            closed_books: [0.0; 4],
             health: Health::Fine,
             types: PhantomData,
             kinds,
@@ -209,7 +232,7 @@ where
     }
 
     /// Runs `work` on the world's own threads, if it has some.
-    fn in_pool(&mut self, work: impl FnOnce(&mut Self) + Send) {
+    pub(crate) fn in_pool(&mut self, work: impl FnOnce(&mut Self) + Send) {
         match self.pool.clone() {
             Some(pool) => pool.install(|| work(self)),
             None => work(self),
@@ -231,6 +254,7 @@ where
         let drift = scheme.drift();
         if drift == Drift::BeforeForces {
             self.kick(h, Some(drift));
+            self.drifted = true;
             self.keep_lists_valid();
         }
         self.forces();
@@ -243,16 +267,24 @@ where
         if later.is_some() {
             self.keep_lists_valid();
         }
+        self.drifted = false;
         self.steps += 1;
     }
 
     /// Contact forces, walls and weight at the present positions and velocities.
     pub(crate) fn forces(&mut self) {
+        let t = self.time_of_positions();
+        for (pose, body) in self.poses.iter_mut().zip(&self.bodies) {
+            if body.is_moved() {
+                *pose = body.pose(t);
+            }
+        }
         let (lines, pairs, weights) = (&self.lines, &self.pairs, &self.weights);
         let (domain, dt, path, kinds) = (self.domain, self.dt, self.lanes, self.kinds.all().len());
         let walls = WallJob::<D, S, W> {
             bodies: &self.bodies,
             pairs: &self.wall_pairs,
+            poses: &self.poses,
             dt,
         };
         let work = |number: usize,
@@ -351,6 +383,7 @@ where
         let walls = WallJob::<D, S, W> {
             bodies: &self.bodies,
             pairs: &self.wall_pairs,
+            poses: &self.poses,
             dt: self.dt,
         };
         let mut stored = vec![0.0; self.bodies.len()];
@@ -376,6 +409,16 @@ where
         self.in_pool(Self::forces);
     }
 
+    /// A body that waits for it begins its motion now.
+    pub fn start_body(&mut self, number: usize) {
+        let now = self.now();
+        if let Some(body) = self.bodies.get_mut(number).filter(|b| b.waits) {
+            body.motion = body.motion.delayed(now);
+            body.waits = false;
+            self.in_pool(Self::forces);
+        }
+    }
+
     /// Changes the constants of the law between grains; its range must stay.
     pub fn set_law(&mut self, law: &L) {
         let all = self.kinds.all();
@@ -384,6 +427,11 @@ where
             .flat_map(|a| all.iter().map(|b| law.pair(a, b)))
             .collect();
         self.in_pool(Self::forces);
+    }
+
+    /// The time to which the positions belong: a step ahead of the clock between a drift and the forces after it.
+    pub(crate) fn time_of_positions(&self) -> f64 {
+        (self.steps + u64::from(self.drifted)) as f64 * self.dt
     }
 
     /// Simulated time in s.
@@ -462,9 +510,10 @@ where
         total as f64 / self.identity.len().max(1) as f64
     }
 
-    pub(crate) fn lost(&self) -> [f64; 3] {
-        self.chunks.iter().fold([0.0; 3], |s, c| {
-            [s[0] + c.lost[0], s[1] + c.lost[1], s[2] + c.lost[2]]
+    /// Lost to damping, wall damping and wall friction, and done by bodies.
+    pub(crate) fn books(&self) -> [f64; 4] {
+        self.chunks.iter().fold(self.closed_books, |sum, chunk| {
+            std::array::from_fn(|k| sum[k] + chunk.books[k])
         })
     }
 

@@ -9,7 +9,7 @@ use tsubu_engine::{
     World,
 };
 use tsubu_integrate::Scheme;
-use tsubu_model::{Dim, Domain, Kind, Plane, Space, Still, Vector, View};
+use tsubu_model::{Dim, Domain, Kind, Motion, Plane, Space, Still, Vector, View};
 use tsubu_sdf::HalfSpace;
 
 const D: f64 = 1.35e-3;
@@ -42,6 +42,8 @@ fn world<X: Layout, K: KindSet>(
         law: wall,
         touches_at: TouchesAt::Surface,
         removed_at: None,
+        motion: Motion::default(),
+        waits: false,
     });
     World::new(Setup {
         kinds,
@@ -55,6 +57,7 @@ fn world<X: Layout, K: KindSet>(
         lanes: Lanes::best(),
         pool: None,
         grains,
+        gates: Vec::new(),
     })
 }
 

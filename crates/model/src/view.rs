@@ -91,6 +91,19 @@ pub struct Passage {
     pub mass: f64,
 }
 
+impl Passage {
+    /// A gate through which no grain has come or gone yet.
+    pub fn of(name: String) -> Self {
+        Self {
+            name,
+            came: 0,
+            went: 0,
+            moved: 0,
+            mass: 0.0,
+        }
+    }
+}
+
 /// A running simulation, read only.
 pub trait View<D: Dim, S: SpinState> {
     /// Simulated time in s.

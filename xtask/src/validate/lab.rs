@@ -7,7 +7,7 @@ use tsubu_engine::{
     Body, Lanes, ManyKinds, NoTally, OneKind, Placed, Setup, TouchesAt, WithTally, World,
 };
 use tsubu_integrate::Scheme;
-use tsubu_model::{Domain, Kind, Space, Still};
+use tsubu_model::{Domain, Kind, Motion, Space, Still};
 use tsubu_sdf::HalfSpace;
 
 /// Grains of one kind that repel and damp.
@@ -99,6 +99,8 @@ impl Lab {
             law,
             touches_at: TouchesAt::Surface,
             removed_at: None,
+            motion: Motion::default(),
+            waits: false,
         };
         Setup {
             kinds,
@@ -123,6 +125,7 @@ impl Lab {
                     kind: kind_of(i),
                 })
                 .collect(),
+            gates: Vec::new(),
         }
     }
 
