@@ -132,6 +132,7 @@ fn main() -> Result<(), PictureError> {
             values: &values,
             quads: &[floor, back],
             segments: &[pole],
+            faces: &[],
         };
         let label = format!("t = {time:.2} s");
         let view = View {
@@ -212,6 +213,7 @@ fn main() -> Result<(), PictureError> {
         values: &values,
         segments: &ground,
         quads: &[],
+        faces: &[],
     };
     let (low, high) = scene.bounds();
     let view = View {

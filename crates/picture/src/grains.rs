@@ -22,6 +22,8 @@ pub struct Scene3<'a> {
     pub quads: &'a [Quad],
     /// Lines, for edges of machines.
     pub segments: &'a [Segment],
+    /// Triangles of machines, opaque: the three corners of each.
+    pub faces: &'a [[[f32; 3]; 3]],
 }
 
 /// The radii of grains.
@@ -160,6 +162,7 @@ impl Scene3<'_> {
         self.segments
             .iter()
             .flat_map(|s| [s.from, s.to])
+            .chain(self.faces.iter().copied().flatten())
             .for_each(|end| hold(end, 0.0));
         if low[0] > high[0] {
             ([0.0; 3], [1.0; 3])

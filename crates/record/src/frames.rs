@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::io::ErrorKind;
 
+use crate::faces::{Faces, encode_faces};
 use crate::vtp::{Frame, encode};
 use crate::{RecordError, RunFolder, write_whole};
 
@@ -48,23 +49,49 @@ impl FrameWriter {
     ///
     /// After an error the frame does not count: the list is as it was, and the next frame takes the same number.
     pub fn write(&mut self, time: f64, frame: &Frame) -> Result<(), RecordError> {
-        let name = format!("frames/frame_{:06}.vtp", self.count);
+        self.write_with_bodies(time, frame, &Faces::default())
+    }
+
+    /// The same with the bodies of that moment as a second part, if there are any triangles.
+    pub fn write_with_bodies(
+        &mut self,
+        time: f64,
+        frame: &Frame,
+        faces: &Faces,
+    ) -> Result<(), RecordError> {
+        let before = self.lines.len();
+        let written = self.write_parts(time, frame, faces);
+        if written.is_err() {
+            self.lines.truncate(before);
+        } else {
+            self.count += 1;
+        }
+        written
+    }
+
+    fn write_parts(&mut self, time: f64, frame: &Frame, faces: &Faces) -> Result<(), RecordError> {
+        let number = self.count;
+        let name = format!("frames/frame_{number:06}.vtp");
         let path = self.folder.path(&name);
         write_whole(&path, &encode(time, frame, &path)?)?;
-        let before = self.lines.len();
+        self.list(time, 0, &name);
+        if !faces.triangles.is_empty() {
+            let name = format!("frames/bodies_{number:06}.vtp");
+            let path = self.folder.path(&name);
+            write_whole(&path, &encode_faces(time, faces, &path)?)?;
+            self.list(time, 1, &name);
+        }
+        let list = format!("{HEAD}{}{TAIL}", self.lines);
+        write_whole(&self.folder.path("frames.pvd"), list.as_bytes())
+    }
+
+    fn list(&mut self, time: f64, part: u32, name: &str) {
         // Writing to a String does not fail.
         writeln!(
             self.lines,
-            "<DataSet timestep=\"{time:?}\" group=\"\" part=\"0\" file=\"{name}\"/>"
+            "<DataSet timestep=\"{time:?}\" group=\"\" part=\"{part}\" file=\"{name}\"/>"
         )
         .ok();
-        let list = format!("{HEAD}{}{TAIL}", self.lines);
-        if let Err(error) = write_whole(&self.folder.path("frames.pvd"), list.as_bytes()) {
-            self.lines.truncate(before);
-            return Err(error);
-        }
-        self.count += 1;
-        Ok(())
     }
 
     /// How many frames are written and listed.

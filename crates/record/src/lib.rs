@@ -35,6 +35,7 @@
 //! ```
 
 pub mod error;
+pub mod faces;
 pub mod folder;
 pub mod frames;
 pub mod series;
@@ -46,6 +47,7 @@ pub mod whole;
 mod scratch;
 
 pub use error::{Fault, RecordError};
+pub use faces::Faces;
 pub use folder::RunFolder;
 pub use frames::FrameWriter;
 pub use series::SeriesWriter;

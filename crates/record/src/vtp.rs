@@ -57,7 +57,7 @@ impl Column<'_> {
         }
     }
 
-    fn bytes(&self) -> Vec<u8> {
+    pub(crate) fn bytes(&self) -> Vec<u8> {
         match self {
             Self::Scalar(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
             Self::Vector(values) => {
@@ -103,16 +103,8 @@ fn check(time: f64, frame: &Frame) -> Result<(), String> {
 
 fn pack_all(time: f64, frame: &Frame, count: i64) -> io::Result<Vec<u8>> {
     let mut body = Body::new();
-    let mut header = format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n\
-         <PolyData>\n\
-         <FieldData>\n\
-         <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>\n\
-         </FieldData>\n\
-         <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
-         <PointData>\n"
-    );
+    let mut header = head(time, frame.points.len(), [frame.points.len(), 0]);
+    header.push_str("<PointData>\n");
     for (name, column) in frame.columns {
         let (kind, components) = column.kind();
         body.array(
@@ -131,22 +123,40 @@ fn pack_all(time: f64, frame: &Frame, count: i64) -> io::Result<Vec<u8>> {
     body.array(&mut header, "Int64", "connectivity", 1, &cells)?;
     let ends: Vec<u8> = (1..=count).flat_map(i64::to_le_bytes).collect();
     body.array(&mut header, "Int64", "offsets", 1, &ends)?;
-    header.push_str("</Verts>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
+    header.push_str("</Verts>\n");
+    Ok(tail(header, &body))
+}
 
+/// The beginning of a file up to its one piece: so many points, vertex cells and triangles.
+pub(crate) fn head(time: f64, points: usize, [vertices, triangles]: [usize; 2]) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n\
+         <PolyData>\n\
+         <FieldData>\n\
+         <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>\n\
+         </FieldData>\n\
+         <Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{vertices}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{triangles}\">\n"
+    )
+}
+
+/// The whole file from its header, which ends within the piece, and the packed arrays.
+pub(crate) fn tail(mut header: String, body: &Body) -> Vec<u8> {
+    header.push_str("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
     let mut file = header.into_bytes();
     file.extend_from_slice(&body.packed);
     file.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-    Ok(file)
+    file
 }
 
 /// The appended data so far, and the packer, which is made once and used for every block.
-struct Body {
+pub(crate) struct Body {
     packed: Vec<u8>,
     packer: ZlibEncoder<Vec<u8>>,
 }
 
 impl Body {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             packed: Vec::new(),
             packer: ZlibEncoder::new(Vec::new(), Compression::new(LEVEL)),
@@ -154,7 +164,7 @@ impl Body {
     }
 
     /// Appends an array and names it, with its offset, in the header.
-    fn array(
+    pub(crate) fn array(
         &mut self,
         header: &mut String,
         kind: &str,

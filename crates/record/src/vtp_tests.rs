@@ -46,7 +46,7 @@ impl<'a> Opened<'a> {
     }
 
     /// The bytes of a named array; `blocks` full and shorter ones are checked against the header.
-    fn bytes(&self, name: &str, kind: &str, components: &str) -> Vec<u8> {
+    pub(crate) fn bytes(&self, name: &str, kind: &str, components: &str) -> Vec<u8> {
         let quoted = format!("Name=\"{name}\"");
         let line = self.header.lines().find(|l| l.contains(&quoted)).unwrap();
         assert!(line.contains(&format!("type=\"{kind}\"")), "{line}");

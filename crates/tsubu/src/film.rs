@@ -161,6 +161,7 @@ impl Film {
             values: &shot.speeds,
             quads: &[],
             segments: &segments,
+            faces: &[],
         };
         let time = match zero {
             Some(zero) if shot.time >= zero => format!("{:.2} s after release", shot.time - zero),

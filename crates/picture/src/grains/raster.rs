@@ -40,6 +40,30 @@ struct Stroke {
     to: [f32; 3],
 }
 
+/// A triangle in samples, with the light that falls on it already in its colour.
+struct Face {
+    corners: [[f32; 3]; 3],
+    colour: Rgb,
+}
+
+impl Face {
+    /// `None` if it is seen from its edge or has no place.
+    fn new(corners: [[f32; 3]; 3]) -> Option<Self> {
+        let [a, b, c] = corners;
+        let edge = |to: [f32; 3]| -> [f32; 3] { std::array::from_fn(|i| to[i] - a[i]) };
+        // Samples count rows downwards; the normal is taken with y upwards, towards the viewer.
+        let [n, m] = [edge(b), edge(c)].map(|e| [e[0], -e[1], e[2]]);
+        let normal = super::unit(super::cross(n, m))?;
+        let seen = corners.iter().flatten().all(|c| c.abs() < 1e9) && normal[2].abs() > 1e-3;
+        let towards = if normal[2] < 0.0 { -1.0 } else { 1.0 };
+        let lit = towards * super::dot(normal, LIGHT);
+        seen.then(|| Self {
+            corners,
+            colour: colour::mix([70, 74, 80], [225, 228, 232], lit.clamp(0.0, 1.0)),
+        })
+    }
+}
+
 /// A parallelogram in samples: corner, edges, and the plane through it.
 struct Sheet {
     corner: [f32; 3],
@@ -90,6 +114,11 @@ pub(super) fn draw(scene: &Scene3, projection: &Projection, view: &View, image: 
             });
         }
     }
+    let faces: Vec<Face> = scene
+        .faces
+        .iter()
+        .filter_map(|corners| Face::new(corners.map(fine)))
+        .collect();
     strokes.retain(|s| s.from.iter().chain(&s.to).all(|c| c.abs() < 1e9));
 
     let (width, height) = (image.width, image.height);
@@ -125,6 +154,7 @@ pub(super) fn draw(scene: &Scene3, projection: &Projection, view: &View, image: 
             for &index in inside {
                 samples.disc(index, &discs[index as usize]);
             }
+            faces.iter().for_each(|face| samples.face(face));
             samples.shade(&discs);
             sheets.iter().for_each(|sheet| samples.sheet(sheet));
             strokes.iter().for_each(|stroke| samples.stroke(stroke));
@@ -194,6 +224,28 @@ impl Samples {
                 if depth > self.depth[at] {
                     self.depth[at] = depth;
                     self.grain[at] = index;
+                }
+            }
+        }
+    }
+
+    fn face(&mut self, face: &Face) {
+        let [a, b, c] = face.corners;
+        let span = |i: usize| (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let (columns, rows) = self.clip(span(0), span(1));
+        for row in rows {
+            for column in columns.clone() {
+                let x = column as f32 + 0.5 - a[0];
+                let y = (self.first_row + row) as f32 + 0.5 - a[1];
+                let u = (x * (c[1] - a[1]) - y * (c[0] - a[0])) / area;
+                let v = (y * (b[0] - a[0]) - x * (b[1] - a[1])) / area;
+                let depth = a[2] + u * (b[2] - a[2]) + v * (c[2] - a[2]);
+                let at = row * self.width + column;
+                if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && depth > self.depth[at] {
+                    self.depth[at] = depth;
+                    self.grain[at] = NONE;
+                    self.colour[at] = face.colour;
                 }
             }
         }

@@ -120,6 +120,7 @@ fn one_thread_and_many_give_the_same_bytes() {
         values: &values,
         quads: &quads,
         segments: &[],
+        faces: &[],
     };
     let view = View {
         width: 400,
@@ -193,7 +194,7 @@ proptest! {
         let quads = [Quad { corner: points[0], edges: [points[1], points[2]] }];
         let segments = [Segment { from: points[0], to: points[3] }];
         let scene = Scene3 {
-            centres: &points, radii: Radii::Each(&radii), values: &values, quads: &quads, segments: &segments,
+            centres: &points, radii: Radii::Each(&radii), values: &values, quads: &quads, segments: &segments, faces: &[],
         };
         let (low, high) = scene.bounds();
         let view = View { width, height, range, label: "l", time: "t" };
@@ -202,4 +203,40 @@ proptest! {
             prop_assert_eq!(image.pixels.len(), 3 * width.max(1) * height.max(1));
         }
     }
+}
+
+#[test]
+fn a_triangle_hides_what_is_behind_it_and_not_what_is_before() {
+    let look = |face_at: f32| {
+        let face = [
+            [-3.0, face_at, -3.0],
+            [3.0, face_at, -3.0],
+            [0.0, face_at, 4.0],
+        ];
+        let scene = Scene3 {
+            centres: &[[0.0; 3]],
+            radii: Radii::Same(0.5),
+            values: &[1.0],
+            faces: &[face],
+            ..Scene3::default()
+        };
+        let camera = Camera::front([-3.0; 3], [3.0; 3]);
+        let view = View {
+            width: 121,
+            height: 121,
+            ..View::default()
+        };
+        let image = scene.draw(&camera, &view);
+        (image.pixel(60, 60), image.pixel(45, 75), image.pixel(3, 3))
+    };
+    // The viewer looks along +y: a face at -1 lies before the grain.
+    let (middle, beside, corner) = look(-1.0);
+    assert_eq!(
+        middle, beside,
+        "the face is of one colour and hides the grain"
+    );
+    assert_ne!(beside, corner);
+    let (middle, beside, _) = look(1.0);
+    assert_eq!(middle, Some(crate::colour::of_share(1.0)));
+    assert_ne!(middle, beside);
 }
