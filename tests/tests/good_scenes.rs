@@ -74,7 +74,7 @@ fn look_and_report_the_same_names_in_every_row() {
         let names = |run: &mut dyn tsubu::assemble::Simulation| {
             run.look()
                 .iter()
-                .map(|r| (r.name, r.unit))
+                .map(|r| (r.name.clone(), r.unit))
                 .collect::<Vec<_>>()
         };
         let first = names(&mut *run);

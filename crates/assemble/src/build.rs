@@ -9,7 +9,7 @@ use std::sync::Arc;
 use tsubu_engine::{
     Body, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally, World,
 };
-use tsubu_measure::{Balance, Energy, Heap, HeapOptions, Slices, Structure};
+use tsubu_measure::{Balance, Energy, Heap, HeapOptions, Loads, Slices, Structure};
 use tsubu_model::{
     ContactLaw, Dim, Domain, Gate, Motion, Observer, Plane, Space, Still, Surface, Vector,
 };
@@ -163,6 +163,8 @@ impl<D: Layout + Slices> Parts<'_, D> {
             Vec::new()
         };
         Box::new(Running::<D, L, T> {
+            shells: surfaces.iter().map(|s| s.shell().map(Arc::new)).collect(),
+            movers: vec![false; surfaces.len()],
             observers: observers_of(scene, self.constants, &self.domain),
             surfaces,
             gates,
@@ -265,6 +267,7 @@ fn observers_of<D: Slices>(
     }
     observers.push(Box::new(Structure::new(depth)));
     observers.push(Box::new(Balance::new()));
+    observers.push(Box::new(Loads::new(vec![false; scene.walls.len()])));
     observers
 }
 

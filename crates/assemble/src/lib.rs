@@ -41,4 +41,4 @@ mod start;
 pub use build::{Built, Choices, build};
 pub use constants::Constants;
 pub use plan::{LimitLine, Plan};
-pub use simulation::{Grain, Simulation, Snapshot, Stop};
+pub use simulation::{Grain, Machine, Simulation, Snapshot, Stop};

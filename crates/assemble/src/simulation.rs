@@ -6,7 +6,8 @@ use std::sync::Arc;
 use tsubu_contact::RepulsiveWall;
 use tsubu_engine::{Health, Layout, OneKind, Tally, World};
 use tsubu_model::{
-    Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Reading, Still, Surface, View,
+    Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Pose, Reading, Shell, Still, Surface,
+    View,
 };
 use tsubu_scene::End;
 
@@ -56,6 +57,19 @@ pub struct Snapshot {
     pub grains: Vec<Grain>,
 }
 
+/// A body that is there, as frames and pictures show it.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    /// Number of the body in the order of the scene.
+    pub number: usize,
+    /// Its triangles in its own frame; `None` if it is drawn by its outline.
+    pub shell: Option<Arc<Shell>>,
+    /// Where it is.
+    pub pose: Pose,
+    /// True if it moves at some time.
+    pub moves: bool,
+}
+
 /// A running scene.
 pub trait Simulation: Send {
     /// Takes up to `steps` steps; stops at the end of the run or at trouble. Returns how many were taken.
@@ -90,6 +104,8 @@ pub trait Simulation: Send {
     fn snapshot(&self) -> Snapshot;
     /// Edges of the bodies that are still there, cut to the box `low`–`high`.
     fn outlines(&self, low: DVec3, high: DVec3) -> Vec<[DVec3; 2]>;
+    /// The bodies that are still there.
+    fn machines(&self) -> Vec<Machine>;
     /// Bytes held per grain.
     fn bytes_per_grain(&self) -> f64;
     /// Force of the grains on each body in the last step, by name, in N.
@@ -104,12 +120,16 @@ pub trait Simulation: Send {
 pub(crate) struct Running<D: Layout, L: ContactLaw<D, Still>, T: Tally> {
     pub world: World<D, Still, OneKind, L, RepulsiveWall, T>,
     pub surfaces: Vec<Arc<dyn Surface<D>>>,
+    /// Triangles of the surfaces that have some.
+    pub shells: Vec<Option<Arc<Shell>>>,
+    /// Which bodies move at some time.
+    pub movers: Vec<bool>,
     pub gates: Vec<Box<dyn Gate<D, Still>>>,
     pub observers: Vec<Box<dyn Observer<D, Still>>>,
     /// Steps between two looks of the gates.
     pub gate_every: u64,
     pub end: End,
-    /// Number of the body whose removal starts the clock, and the time by which it must have gone.
+    /// The body whose removal or start starts the clock, and the time by which that must have come.
     pub release: Option<Release>,
     pub trouble: Option<Stop>,
     /// The law from the release on, if another one holds while the grains settle.
@@ -143,16 +163,20 @@ where
         for gate in &mut self.gates {
             gate.decide(&self.world, &mut changes);
         }
-        for change in changes {
-            let Change::RemoveBody(number) = change else {
-                continue;
-            };
-            self.world.remove_body(number);
-            if let Some(release) = self.release.as_mut().filter(|r| r.body == number) {
-                release.at_step = Some(self.world.steps());
-                if let Some(law) = self.law_after.take() {
-                    self.world.set_law(&law);
-                }
+        self.world.apply(&changes);
+        let waited_for = |change: &Change| {
+            self.release.is_some_and(|release| {
+                let body = release.body;
+                *change == Change::RemoveBody(body) || *change == Change::StartBody(body)
+            })
+        };
+        if changes.iter().any(waited_for) {
+            let now = self.world.steps();
+            if let Some(release) = self.release.as_mut().filter(|r| r.at_step.is_none()) {
+                release.at_step = Some(now);
+            }
+            if let Some(law) = self.law_after.take() {
+                self.world.set_law(&law);
             }
         }
         if let Some(release) = self.release.filter(|r| r.at_step.is_none())
@@ -287,7 +311,24 @@ where
             .zip(&self.surfaces)
             .filter(|(b, _)| b.removed_at.is_none());
         there
-            .flat_map(|(_, surface)| surface.outline(low, high))
+            .flat_map(|(body, surface)| {
+                let place = move |x: DVec3| body.pose.to_world(x);
+                let edges = surface.outline(low, high).into_iter();
+                edges.map(move |[a, b]| [place(a), place(b)])
+            })
+            .collect()
+    }
+
+    fn machines(&self) -> Vec<Machine> {
+        let there = self.world.bodies().into_iter().enumerate();
+        there
+            .filter(|(_, body)| body.removed_at.is_none())
+            .map(|(number, body)| Machine {
+                number,
+                shell: self.shells[number].clone(),
+                pose: body.pose,
+                moves: self.movers[number],
+            })
             .collect()
     }
 

@@ -200,7 +200,7 @@ impl<D: Slices, S: SpinState> Observer<D, S> for Heap {
 /// A reading with its uncertainty, if known.
 fn reading(name: &'static str, measured: Measured, unit: &'static str) -> Reading {
     Reading {
-        name,
+        name: name.into(),
         value: measured.value,
         uncertainty: measured.uncertainty,
         unit,

@@ -360,8 +360,8 @@ fn the_observer_starts_its_clock_at_the_release() {
         view.time = time;
         let row = heap.see(&view);
         assert_eq!(
-            row.iter().map(|r| r.name).collect::<Vec<_>>(),
-            before.iter().map(|r| r.name).collect::<Vec<_>>()
+            row.iter().map(|r| &r.name).collect::<Vec<_>>(),
+            before.iter().map(|r| &r.name).collect::<Vec<_>>()
         );
     }
     let labels: Vec<String> = heap.curves().into_iter().map(|c| c.label).collect();

@@ -1,6 +1,7 @@
 //! How observers and gates look at a running simulation, and what they may say.
 
 use crate::{Dim, Kind, SpinState};
+use std::borrow::Cow;
 
 /// Energies in J. Everything that leaves is summed step by step, nothing is inferred as a remainder.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -177,8 +178,8 @@ pub trait Gate<D: Dim, S: SpinState>: Send {
 /// One measured value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// Stable name, as in `summary.json`.
-    pub name: &'static str,
+    /// Stable name, as in `summary.json`; what belongs to a body begins with its name: `screw.torque_x`.
+    pub name: Cow<'static, str>,
     /// The value.
     pub value: f64,
     /// Its uncertainty (one standard deviation), if known.
@@ -189,9 +190,9 @@ pub struct Reading {
 
 impl Reading {
     /// A value without a known uncertainty.
-    pub fn new(name: &'static str, value: f64, unit: &'static str) -> Self {
+    pub fn new(name: impl Into<Cow<'static, str>>, value: f64, unit: &'static str) -> Self {
         Self {
-            name,
+            name: name.into(),
             value,
             uncertainty: None,
             unit,

@@ -41,7 +41,7 @@ pub fn summary(
     summary.text("ended", ended);
     for reading in run.report() {
         summary.measured(
-            reading.name,
+            &reading.name,
             reading.value,
             reading.uncertainty,
             reading.unit,

@@ -2,11 +2,13 @@
 
 use crate::trouble::Trouble;
 use glam::DVec3;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
-use tsubu::assemble::{Simulation, Snapshot};
+use tsubu::assemble::{Machine, Simulation, Snapshot};
+use tsubu::model::Shell;
 use tsubu::picture::{Animation, Camera, Image, Radii, Scene3, Segment, View};
-use tsubu::record::{Column, Frame, FrameWriter, RunFolder};
+use tsubu::record::{Column, Faces, Frame, FrameWriter, RunFolder};
 
 /// Most grains kept in memory for the animation, over all its pictures.
 const MOST_KEPT: usize = 12_000_000;
@@ -22,6 +24,7 @@ struct Shot {
     centres: Vec<[f32; 3]>,
     speeds: Vec<f32>,
     walls: Vec<[DVec3; 2]>,
+    machines: Vec<Machine>,
 }
 
 /// Collects snapshots.
@@ -33,8 +36,23 @@ pub struct Film {
     seen: usize,
 }
 
-/// Writes a ParaView frame.
-pub fn write_frame(frames: &mut FrameWriter, snapshot: &Snapshot) -> Result<(), Trouble> {
+/// Writes a ParaView frame: the grains, and the bodies that have triangles.
+pub fn write_frame(
+    frames: &mut FrameWriter,
+    snapshot: &Snapshot,
+    machines: &[Machine],
+) -> Result<(), Trouble> {
+    let (mut corners, mut triangles, mut bodies) = (Vec::new(), Vec::new(), Vec::new());
+    for machine in machines {
+        let Some(shell) = &machine.shell else {
+            continue;
+        };
+        let first = corners.len() as u32;
+        let place = |x: &DVec3| machine.pose.to_world(*x).as_vec3().to_array();
+        corners.extend(shell.vertices.iter().map(place));
+        triangles.extend(shell.triangles.iter().map(|t| t.map(|c| c + first)));
+        bodies.resize(triangles.len(), machine.number as u32);
+    }
     let points: Vec<[f32; 3]> = snapshot.grains.iter().map(|g| g.position).collect();
     let velocity: Vec<[f32; 3]> = snapshot.grains.iter().map(|g| g.velocity).collect();
     let radius: Vec<f32> = snapshot.grains.iter().map(|g| g.radius).collect();
@@ -44,13 +62,16 @@ pub fn write_frame(frames: &mut FrameWriter, snapshot: &Snapshot) -> Result<(), 
         ("radius", Column::Scalar(&radius)),
         ("id", Column::Id(&id)),
     ];
-    Ok(frames.write(
-        snapshot.time,
-        &Frame {
-            points: &points,
-            columns: &columns,
-        },
-    )?)
+    let faces = Faces {
+        points: &corners,
+        triangles: &triangles,
+        bodies: &bodies,
+    };
+    let grains = Frame {
+        points: &points,
+        columns: &columns,
+    };
+    Ok(frames.write_with_bodies(snapshot.time, &grains, &faces)?)
 }
 
 impl Film {
@@ -82,6 +103,7 @@ impl Film {
                 .map(|g| glam::Vec3::from(g.velocity).length())
                 .collect(),
             walls: run.outlines(-far, far),
+            machines: run.machines(),
         });
         if self.shots.len() > MOST_PICTURES || self.shots.len() * snapshot.grains.len() > MOST_KEPT
         {
@@ -145,7 +167,7 @@ impl Film {
         let single = |x: DVec3| x.as_vec3().to_array();
         // Walls are drawn as the lines in which they cross the picture's box.
         let clip = |x: DVec3| x.clamp(low, high);
-        let segments: Vec<Segment> = shot
+        let mut segments: Vec<Segment> = shot
             .walls
             .iter()
             .map(|[a, b]| [clip(*a), clip(*b)])
@@ -155,13 +177,38 @@ impl Film {
                 to: single(b),
             })
             .collect();
+        // A machine that moves is shown whole among the grains behind its axis: those before it, and the
+        // walls that stand still, would hide it.
+        let cut = shot.machines.iter().find(|m| m.moves && m.shell.is_some());
+        let cut = cut.map(|m| (m.pose.pivot + m.pose.shift).y as f32);
+        let (centres, speeds): (Vec<[f32; 3]>, Vec<f32>) = shot
+            .centres
+            .iter()
+            .zip(&shot.speeds)
+            .filter(|(centre, _)| cut.is_none_or(|y| centre[1] >= y))
+            .unzip();
+        let mut faces = Vec::new();
+        for machine in &shot.machines {
+            let Some(shell) = &machine.shell else {
+                continue;
+            };
+            if machine.moves {
+                let corner = |c: u32| single(machine.pose.to_world(shell.vertices[c as usize]));
+                faces.extend(shell.triangles.iter().map(|t| t.map(corner)));
+            } else {
+                segments.extend(edges(shell).map(|[a, b]| Segment {
+                    from: single(a),
+                    to: single(b),
+                }));
+            }
+        }
         let scene = Scene3 {
-            centres: &shot.centres,
+            centres: &centres,
             radii: Radii::Same(self.radius),
-            values: &shot.speeds,
+            values: &speeds,
             quads: &[],
             segments: &segments,
-            faces: &[],
+            faces: &faces,
         };
         let time = match zero {
             Some(zero) if shot.time >= zero => format!("{:.2} s after release", shot.time - zero),
@@ -201,6 +248,27 @@ impl Film {
         let room = DVec3::splat(1.2 * f64::from(self.radius));
         (low - room, high + room)
     }
+}
+
+/// The edges of a shell at which its faces meet at more than 30°: what a draughtsman would draw.
+fn edges(shell: &Shell) -> impl Iterator<Item = [DVec3; 2]> {
+    let key = |x: DVec3| x.to_array().map(f64::to_bits);
+    let mut met: BTreeMap<[[u64; 3]; 2], ([DVec3; 2], Vec<DVec3>)> = BTreeMap::new();
+    for t in &shell.triangles {
+        let [a, b, c] = t.map(|k| shell.vertices[k as usize]);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            let ends = if key(p) < key(q) { [p, q] } else { [q, p] };
+            let entry = met.entry(ends.map(key)).or_insert((ends, Vec::new()));
+            entry.1.push(normal);
+        }
+    }
+    met.into_values()
+        .filter(|(_, normals)| {
+            let first = normals[0];
+            normals.len() == 1 || normals.iter().any(|n| n.dot(first) < 0.866)
+        })
+        .map(|(ends, _)| ends)
 }
 
 /// 98 % of grains are slower than this in the fastest picture.

@@ -7,7 +7,7 @@ use tsubu::record::{RunFolder, SeriesWriter};
 /// Rows written and kept.
 pub struct Rows {
     writer: SeriesWriter,
-    names: Vec<&'static str>,
+    names: Vec<String>,
     columns: Vec<Vec<f64>>,
 }
 
@@ -15,12 +15,11 @@ impl Rows {
     /// Looks once, writes the header and the first row.
     pub fn start(folder: &RunFolder, run: &mut dyn Simulation) -> Result<Self, Trouble> {
         let readings = run.look();
-        let mut header: Vec<(&str, &str)> = vec![("time", "s")];
-        header.extend(readings.iter().map(|r| (r.name, r.unit)));
-        let writer = SeriesWriter::create(folder, &header)?;
-        let names: Vec<&'static str> = std::iter::once("time")
-            .chain(readings.iter().map(|r| r.name))
+        let header: Vec<(&str, &str)> = std::iter::once(("time", "s"))
+            .chain(readings.iter().map(|r| (&*r.name, r.unit)))
             .collect();
+        let writer = SeriesWriter::create(folder, &header)?;
+        let names: Vec<String> = header.iter().map(|(name, _)| (*name).to_owned()).collect();
         let mut rows = Self {
             writer,
             columns: vec![Vec::new(); names.len()],

@@ -91,7 +91,7 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
         }
         let snapshot = run.snapshot();
         if let Some(frames) = &mut frames {
-            film::write_frame(frames, &snapshot)?;
+            film::write_frame(frames, &snapshot, &run.machines())?;
         }
         if let Some(film) = &mut film {
             film.add(run, &snapshot);
