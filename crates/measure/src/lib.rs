@@ -2,7 +2,8 @@
 //!
 //! Read in this order: [`Deposit`] (which grains count, and how densely they lie), [`Profile`] (the
 //! height of a deposit along x), [`slope`] (crest, front, two angles of repose), and the observers
-//! [`Heap`], [`Energy`], [`Structure`], [`Balance`]. Nothing here changes a simulation.
+//! [`Heap`], [`Energy`], [`Structure`], [`Balance`]. For conveying: [`Blocked`] and [`Steady`] (the mean of a
+//! correlated series and where it becomes steady), [`screw`] (the theory), [`Conveying`]. Nothing here changes a simulation.
 //!
 //! Lengths in m, angles in degrees, uncertainties one standard deviation. The x axis is level, z is up.
 //!
@@ -17,17 +18,24 @@
 //! ```
 
 mod balance;
+mod blocks;
+mod conveyed;
+mod conveying;
 mod deposit;
 mod energy;
 mod fit;
 mod heap;
 mod loads;
 mod profile;
+pub mod screw;
+mod section;
 mod slices;
 pub mod slope;
 mod structure;
 
 pub use balance::Balance;
+pub use blocks::{Blocked, Steady};
+pub use conveying::{Conveying, ConveyingOptions};
 pub use deposit::Deposit;
 pub use energy::Energy;
 pub use fit::Line;

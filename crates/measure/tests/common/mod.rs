@@ -1,5 +1,8 @@
 //! A simulation that does not run: grains placed by hand, and fills of known shape.
 
+// Every test binary compiles this file, and each uses a part of it.
+#![allow(dead_code)]
+
 use tsubu_model::{
     BodyState, Dim, Energies, Kind, Passage, Pose, Reading, Still, TouchingPair, Vector, View,
 };
@@ -8,6 +11,8 @@ use tsubu_model::{
 pub struct Fake<D: Dim> {
     pub time: f64,
     pub grains: Vec<D::V>,
+    /// Velocity at a place; 2 m/s along x unless said otherwise.
+    pub velocity: Box<dyn Fn(glam::DVec3) -> glam::DVec3>,
     pub kinds: Vec<Kind>,
     pub pairs: Vec<(usize, usize, f64)>,
     pub bodies: Vec<BodyState<D>>,
@@ -32,6 +37,7 @@ impl<D: Dim> Fake<D> {
         Self {
             time: 0.0,
             grains,
+            velocity: Box::new(|_| glam::DVec3::new(2.0, 0.0, 0.0)),
             kinds,
             pairs: Vec::new(),
             bodies: Vec::new(),
@@ -50,8 +56,8 @@ impl<D: Dim> View<D, Still> for Fake<D> {
     fn position(&self, i: usize) -> D::V {
         self.grains[i]
     }
-    fn velocity(&self, _: usize) -> D::V {
-        D::from_space(glam::DVec3::new(2.0, 0.0, 0.0))
+    fn velocity(&self, i: usize) -> D::V {
+        D::from_space((self.velocity)(D::to_space(self.grains[i])))
     }
     fn kind(&self, i: usize) -> &Kind {
         &self.kinds[i]
