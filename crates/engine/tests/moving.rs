@@ -5,9 +5,7 @@ use std::sync::Arc;
 use tsubu_contact::{Repulsion, RepulsiveWall};
 use tsubu_engine::{Body, Lanes, OneKind, Placed, Setup, TouchesAt, WithTally, World};
 use tsubu_integrate::Scheme;
-use tsubu_model::{
-    Change, Course, Domain, Kind, Motion, Shift, Space, Span, Still, Turn, Vector, View,
-};
+use tsubu_model::{Change, Course, Domain, Kind, Motion, Shift, Space, Span, Still, Turn, View};
 use tsubu_sdf::HalfSpace;
 
 const D: f64 = 1.35e-3;
