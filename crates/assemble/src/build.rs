@@ -52,6 +52,10 @@ fn in_dimension<D: Layout + Slices>(
     checked: &Checked,
     choices: &Choices,
 ) -> Result<Built, SceneError> {
+    refuse_unbuilt(checked)?;
+    let surfaces = (0..checked.scene.walls.len())
+        .map(|i| surface_of::<D>(checked, i))
+        .collect::<Result<_, _>>()?;
     let constants = Constants::of(checked)?;
     let domain = domain_of::<D>(checked, &constants)?;
     let grains = start::grains::<D>(checked, &constants, &domain)?;
@@ -79,6 +83,7 @@ fn in_dimension<D: Layout + Slices>(
     let parts = Parts {
         checked,
         constants: &constants,
+        surfaces,
         domain,
         grains,
         lanes,
@@ -101,6 +106,7 @@ fn in_dimension<D: Layout + Slices>(
 struct Parts<'a, D: Layout> {
     checked: &'a Checked,
     constants: &'a Constants,
+    surfaces: Vec<Arc<dyn Surface<D>>>,
     domain: Domain<D>,
     grains: Vec<Placed<D>>,
     lanes: Lanes,
@@ -115,11 +121,10 @@ impl<D: Layout + Slices> Parts<'_, D> {
         T: Tally,
     {
         let scene = &self.checked.scene;
-        let surfaces: Vec<Arc<dyn Surface<D>>> = scene.walls.iter().map(surface_of::<D>).collect();
         let bodies = scene
             .walls
             .iter()
-            .zip(&surfaces)
+            .zip(&self.surfaces)
             .zip(&self.constants.walls)
             .map(|((wall, surface), law)| Body {
                 name: wall.name.clone(),
@@ -166,7 +171,7 @@ impl<D: Layout + Slices> Parts<'_, D> {
             shells: surfaces.iter().map(|s| s.shell().map(Arc::new)).collect(),
             movers: vec![false; surfaces.len()],
             observers: observers_of(scene, self.constants, &self.domain),
-            surfaces,
+            surfaces: self.surfaces,
             gates,
             gate_every: gate_every(scene, self.constants.dt),
             end: scene.time.end,
@@ -178,12 +183,47 @@ impl<D: Layout + Slices> Parts<'_, D> {
     }
 }
 
-fn surface_of<D: Dim>(wall: &scene::Wall) -> Arc<dyn Surface<D>> {
-    let Shape::HalfSpace { point, outward } = &wall.shape;
-    Arc::new(HalfSpace::<D>::new(
-        D::from_space(*point),
-        D::from_space(*outward),
-    ))
+fn surface_of<D: Dim>(checked: &Checked, wall: usize) -> Result<Arc<dyn Surface<D>>, SceneError> {
+    match &checked.scene.walls[wall].shape {
+        Shape::HalfSpace { point, outward } => Ok(Arc::new(HalfSpace::<D>::new(
+            D::from_space(*point),
+            D::from_space(*outward),
+        ))),
+        other => Err(unbuilt(
+            checked,
+            &format!("walls[{wall}].shape"),
+            other.name(),
+        )),
+    }
+}
+
+fn unbuilt(checked: &Checked, path: &str, what: &str) -> SceneError {
+    checked.problem(
+        path,
+        format!("{what}: not built yet"),
+        "leave it out for now",
+    )
+}
+
+/// Refuses what the language can say and nothing here can do yet.
+fn refuse_unbuilt(checked: &Checked) -> Result<(), SceneError> {
+    let scene = &checked.scene;
+    let moving = scene.walls.iter().position(|w| w.motion.is_some());
+    let within = matches!(&scene.initial, scene::Initial::Fill(fill) if fill.within.is_some());
+    let paths = [
+        moving.map(|i| format!("walls[{i}].motion")),
+        within.then(|| "initial.fill.within".into()),
+        (!scene.outlets.is_empty()).then(|| "outlets".into()),
+        (!scene.inlets.is_empty()).then(|| "inlets".into()),
+        scene
+            .measures
+            .conveying
+            .map(|_| "measures.conveying".into()),
+    ];
+    match paths.into_iter().flatten().next() {
+        Some(path) => Err(unbuilt(checked, &path, &path)),
+        None => Ok(()),
+    }
 }
 
 fn domain_of<D: Dim>(checked: &Checked, constants: &Constants) -> Result<Domain<D>, SceneError> {
@@ -249,7 +289,9 @@ fn observers_of<D: Slices>(
         // A wall that stays and looks along x is the back, one that looks against it the far end.
         let upright = |sign: f64| {
             scene.walls.iter().find_map(|w| {
-                let Shape::HalfSpace { point, outward } = &w.shape;
+                let Shape::HalfSpace { point, outward } = &w.shape else {
+                    return None;
+                };
                 (w.removed == Removal::Never && sign * outward.x > 0.999).then_some(point.x)
             })
         };

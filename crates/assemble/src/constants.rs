@@ -181,7 +181,10 @@ fn gaps(scene: &scene::Scene) -> Vec<Gap> {
                     point: q,
                     outward: m,
                 },
-            ) = (&a.shape, &b.shape);
+            ) = (&a.shape, &b.shape)
+            else {
+                continue;
+            };
             if n.dot(*m) < -1.0 + 1e-9 && (*q - *p).dot(*n) > 0.0 {
                 gaps.push(Gap::new(
                     format!("between the walls `{}` and `{}`", a.name, b.name),

@@ -72,10 +72,13 @@ fn filled<D: Dim>(
             "shrink the region or raise grains.coarse",
         ));
     }
+    let Some(region) = wish.region else {
+        return Ok(Vec::new());
+    };
     let places = fill::<D>(
         &Box3 {
-            min: wish.min,
-            max: wish.max,
+            min: region.min,
+            max: region.max,
         },
         count,
         diameter,
@@ -95,7 +98,9 @@ fn refuse_walls<D: Dim>(
     diameter: f64,
 ) -> Result<(), SceneError> {
     for wall in &checked.scene.walls {
-        let tsubu_scene::Shape::HalfSpace { point, outward } = &wall.shape;
+        let tsubu_scene::Shape::HalfSpace { point, outward } = &wall.shape else {
+            continue;
+        };
         let offset = match wall.touches_at {
             TouchesAt::Surface => 0.5 * diameter,
             TouchesAt::Centre => 0.0,

@@ -51,8 +51,9 @@ pub use check::Checked;
 pub use error::SceneError;
 pub use grain_file::GrainFile;
 pub use scene::{
-    Axis, CoarseRule, Damping, Domain, End, Fill, Grains, Initial, Integrator, Law, Output,
-    Removal, Scene, Shape, SoftenedDamping, Space, StartingGrain, Step, Stiffness, Still, Time,
-    TouchesAt, Wall,
+    Axis, Begin, CoarseRule, Conveying, Course, Damping, Domain, End, Fate, Fill, Grains, Hand,
+    Initial, Inlet, Integrator, Law, Measures, MeshFile, MeshSurface, Motion, Outlet, Output,
+    Region, Removal, Scene, Shape, Shift, SoftenedDamping, Space, StartingGrain, Step, Stiffness,
+    Still, Time, TouchesAt, Turn, Wall,
 };
 pub use source::Source;

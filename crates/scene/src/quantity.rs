@@ -1,4 +1,4 @@
-//! The values of the raw scene: quantities with units, bare numbers, triples; each refuses with a remedy.
+//! The values of the raw scene: quantities with units, bare numbers, pairs and triples; each refuses with a remedy.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -27,7 +27,7 @@ macro_rules! quantities {
     )*};
 }
 
-quantities!(Length Time Mass Density Pressure Velocity Acceleration Energy Damping);
+quantities!(Length Time Mass Density Pressure Velocity Acceleration Energy Damping AngularVelocity Frequency);
 
 /// A quantity of a dimension, in SI.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +36,10 @@ pub(crate) struct Quantity<D>(pub f64, PhantomData<D>);
 /// Three quantities, or three numbers, as `(x, y, z)` or `[x, y, z]`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Triple<T>(pub [T; 3]);
+
+/// Two quantities, as `(a, b)` or `[a, b]`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair<T>(pub [T; 2]);
 
 /// A finite number without dimension.
 #[derive(Clone, Copy, Debug)]
@@ -177,37 +181,56 @@ impl Visitor<'_> for WholeVisitor {
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Triple<T> {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
-        reader
-            .deserialize_any(TripleVisitor(PhantomData))
-            .map(Triple)
+        let visitor = RowVisitor {
+            row: "a triple of values (x, y, z)",
+            parts: "x, y and z",
+            remedy: "write (x, y, z)",
+            item: PhantomData,
+        };
+        reader.deserialize_any(visitor).map(Triple)
     }
 }
 
-struct TripleVisitor<T>(PhantomData<T>);
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Pair<T> {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        let visitor = RowVisitor {
+            row: "a pair of values (from, to)",
+            parts: "two",
+            remedy: "write both in brackets, parted by a comma",
+            item: PhantomData,
+        };
+        reader.deserialize_any(visitor).map(Pair)
+    }
+}
 
-impl<'de, T: Deserialize<'de>> Visitor<'de> for TripleVisitor<T> {
-    type Value = [T; 3];
+/// Reads exactly N values.
+struct RowVisitor<T, const N: usize> {
+    /// What is expected, in messages.
+    row: &'static str,
+    parts: &'static str,
+    remedy: &'static str,
+    item: PhantomData<T>,
+}
+
+impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for RowVisitor<T, N> {
+    type Value = [T; N];
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a triple of values (x, y, z)")
+        f.write_str(self.row)
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<[T; 3], A::Error> {
-        let short = || {
-            A::Error::custom(two_lines(
-                "too few values: x, y and z are expected",
-                "write (x, y, z)",
-            ))
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<[T; N], A::Error> {
+        let wrong = |count: &str| {
+            let what = format!("too {count} values: {} are expected", self.parts);
+            A::Error::custom(two_lines(what, self.remedy))
         };
-        let x = items.next_element()?.ok_or_else(short)?;
-        let y = items.next_element()?.ok_or_else(short)?;
-        let z = items.next_element()?.ok_or_else(short)?;
-        if items.next_element::<T>()?.is_some() {
-            return Err(A::Error::custom(two_lines(
-                "too many values: x, y and z are expected",
-                "write (x, y, z)",
-            )));
+        let mut row = Vec::with_capacity(N);
+        while row.len() < N {
+            row.push(items.next_element()?.ok_or_else(|| wrong("few"))?);
         }
-        Ok([x, y, z])
+        if items.next_element::<T>()?.is_some() {
+            return Err(wrong("many"));
+        }
+        row.try_into().map_err(|_| wrong("few"))
     }
 }

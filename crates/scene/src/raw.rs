@@ -2,7 +2,16 @@
 //!
 //! The names of the types are what `ron` puts into its messages.
 
+mod flow;
+mod wall;
+
 use serde::Deserialize;
+
+pub(crate) use flow::{RawConveying, RawFate, RawInlet, RawMeasures, RawOutlet};
+pub(crate) use wall::{
+    MESH_UNITS, MeshUnit, RawBegin, RawHand, RawMeshFile, RawMotion, RawRemoval, RawShape,
+    RawShift, RawSurface, RawTouchesAt, RawTurn, RawWall,
+};
 
 use crate::quantity::{
     Acceleration, Damping, Density, Energy, Length, Mass, Number, Pressure, Quantity, Time, Triple,
@@ -17,9 +26,12 @@ pub(crate) const TOP: &[&str] = &[
     "domain",
     "walls",
     "initial",
+    "outlets",
+    "inlets",
     "still",
     "time",
     "neighbours",
+    "measures",
     "output",
 ];
 
@@ -44,9 +56,25 @@ pub(crate) const CHOICES: &[(&str, &[&str])] = &[
     ("x", &["Open", "Periodic"]),
     ("y", &["Open", "Periodic"]),
     ("z", &["Open", "Periodic"]),
-    ("shape", &["HalfSpace"]),
+    (
+        "shape",
+        &[
+            "HalfSpace",
+            "Ball",
+            "Cuboid",
+            "Cylinder",
+            "Tube",
+            "Cone",
+            "Screw",
+            "Mesh",
+        ],
+    ),
+    ("hand", &["Right", "Left"]),
+    ("surface", &["Grid", "Exact"]),
     ("touches_at", &["Surface", "Centre"]),
     ("removed", &["Never", "WhenStill", "At"]),
+    ("begins", &["WhenStill", "At"]),
+    ("then", &["Delete", "Recycle"]),
     ("step", &["PerPeriod", "Seconds", "Exactly"]),
     (
         "integrator",
@@ -70,9 +98,12 @@ pub(crate) struct RawScene {
     pub domain: Option<RawDomain>,
     pub walls: Option<Vec<RawWall>>,
     pub initial: RawInitial,
+    pub outlets: Option<Vec<RawOutlet>>,
+    pub inlets: Option<Vec<RawInlet>>,
     pub still: Option<RawStill>,
     pub time: RawTime,
     pub neighbours: Option<RawNeighbours>,
+    pub measures: Option<RawMeasures>,
     pub output: Option<RawOutput>,
 }
 
@@ -157,41 +188,6 @@ pub(crate) enum RawAxis {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "wall")]
-pub(crate) struct RawWall {
-    pub name: String,
-    pub shape: RawShape,
-    pub restitution: Option<Number>,
-    pub friction: Option<Number>,
-    pub touches_at: Option<RawTouchesAt>,
-    pub removed: Option<RawRemoval>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "shape")]
-pub(crate) enum RawShape {
-    HalfSpace {
-        point: Triple<Quantity<Length>>,
-        outward: Triple<Number>,
-    },
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename = "touches_at")]
-pub(crate) enum RawTouchesAt {
-    Surface,
-    Centre,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename = "removed")]
-pub(crate) enum RawRemoval {
-    Never,
-    WhenStill,
-    At(Quantity<Time>),
-}
-
-#[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename = "initial")]
 pub(crate) struct RawInitial {
     pub file: Option<String>,
@@ -202,12 +198,13 @@ pub(crate) struct RawInitial {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename = "fill")]
 pub(crate) struct RawFill {
-    pub region: RawRegion,
+    pub region: Option<RawRegion>,
+    pub within: Option<RawMeshFile>,
     pub solid_fraction: Number,
     pub seed: Whole,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields, rename = "region")]
 pub(crate) struct RawRegion {
     pub min: Triple<Quantity<Length>>,
@@ -298,8 +295,12 @@ mod tests {
             accepted::<RawAxis>(),
             accepted::<RawAxis>(),
             accepted::<RawShape>(),
+            accepted::<RawHand>(),
+            accepted::<RawSurface>(),
             accepted::<RawTouchesAt>(),
             accepted::<RawRemoval>(),
+            accepted::<RawBegin>(),
+            accepted::<RawFate>(),
             accepted::<RawStep>(),
             accepted::<RawIntegrator>(),
         ];

@@ -1,12 +1,16 @@
 //! A checked scene back as text, every default filled in, every quantity in SI.
 
+mod flow;
+mod walls;
+
 use std::fmt::Write;
 
 use glam::DVec3;
 
+use crate::raw::MESH_UNITS;
 use crate::scene::{
-    Axis, Damping, End, Grains, Initial, Integrator, Law, Output, Removal, Scene, Shape, Space,
-    StartingGrain, Step, Stiffness, Wall,
+    Axis, Damping, End, Fill, Grains, Initial, Integrator, Law, MeshFile, Output, Region, Scene,
+    Space, StartingGrain, Step, Stiffness,
 };
 use crate::units::{Dimension, write};
 
@@ -54,6 +58,7 @@ impl Scene {
         }
         writeln!(out, "    ],")?;
         self.initial.write_to(out)?;
+        self.write_flow(out)?;
         if let Some(still) = &self.still {
             let for_at_least = quantity(Dimension::Time, still.for_at_least);
             let at_most = quantity(Dimension::Time, still.at_most);
@@ -81,6 +86,7 @@ impl Scene {
             Some(skin) => writeln!(out, "    neighbours: (skin: {skin:?}),")?,
             None => writeln!(out, "    neighbours: (), // the program chooses the skin")?,
         }
+        self.write_measures(out)?;
         self.output.write_to(out)?;
         writeln!(out, ")")
     }
@@ -138,37 +144,6 @@ impl Grains {
     }
 }
 
-impl Wall {
-    fn write_to(&self, out: &mut String) -> std::fmt::Result {
-        let Shape::HalfSpace { point, outward } = self.shape;
-        let outward = outward
-            .to_array()
-            .map(|part| format!("{part:?}"))
-            .join(", ");
-        writeln!(out, "        (")?;
-        writeln!(out, "            name: {},", text(&self.name))?;
-        writeln!(
-            out,
-            "            shape: HalfSpace(point: {}, outward: ({outward})),",
-            triple(Dimension::Length, point)
-        )?;
-        if let Some(restitution) = self.restitution {
-            writeln!(out, "            restitution: {restitution:?},")?;
-        }
-        if let Some(friction) = self.friction {
-            writeln!(out, "            friction: {friction:?},")?;
-        }
-        writeln!(out, "            touches_at: {:?},", self.touches_at)?;
-        let removed = match self.removed {
-            Removal::Never => "Never".into(),
-            Removal::WhenStill => "WhenStill".into(),
-            Removal::At(time) => format!("At({})", quantity(Dimension::Time, time)),
-        };
-        writeln!(out, "            removed: {removed},")?;
-        writeln!(out, "        ),")
-    }
-}
-
 impl Initial {
     fn write_to(&self, out: &mut String) -> std::fmt::Result {
         writeln!(out, "    initial: (")?;
@@ -176,21 +151,7 @@ impl Initial {
             Initial::File(path) => {
                 writeln!(out, "        file: {},", text(&path.display().to_string()))?
             }
-            Initial::Fill(fill) => {
-                let (min, max) = (
-                    triple(Dimension::Length, fill.min),
-                    triple(Dimension::Length, fill.max),
-                );
-                writeln!(out, "        fill: (")?;
-                writeln!(out, "            region: (min: {min}, max: {max}),")?;
-                writeln!(
-                    out,
-                    "            solid_fraction: {:?},",
-                    fill.solid_fraction
-                )?;
-                writeln!(out, "            seed: {},", fill.seed)?;
-                writeln!(out, "        ),")?;
-            }
+            Initial::Fill(fill) => fill.write_to(out)?,
             Initial::Grains(grains) => {
                 writeln!(out, "        grains: [")?;
                 for StartingGrain { at, velocity } in grains {
@@ -204,6 +165,25 @@ impl Initial {
             }
         }
         writeln!(out, "    ),")
+    }
+}
+
+impl Fill {
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        writeln!(out, "        fill: (")?;
+        if let Some(corners) = &self.region {
+            writeln!(out, "            region: ({}),", region(corners))?;
+        }
+        if let Some(mesh) = &self.within {
+            writeln!(out, "            within: ({}),", mesh_file(mesh))?;
+        }
+        writeln!(
+            out,
+            "            solid_fraction: {:?},",
+            self.solid_fraction
+        )?;
+        writeln!(out, "            seed: {},", self.seed)?;
+        writeln!(out, "        ),")
     }
 }
 
@@ -252,6 +232,31 @@ fn triple(dimension: Dimension, value: DVec3) -> String {
             .to_array()
             .map(|part| quantity(dimension, part))
             .join(", ")
+    )
+}
+
+fn numbers(value: DVec3) -> String {
+    let parts = value.to_array().map(|part| format!("{part:?}"));
+    format!("({})", parts.join(", "))
+}
+
+/// The corners of a box, without brackets around them.
+fn region(region: &Region) -> String {
+    let corner = |value| triple(Dimension::Length, value);
+    format!("min: {}, max: {}", corner(region.min), corner(region.max))
+}
+
+/// The fields of a mesh file, without brackets around them.
+fn mesh_file(mesh: &MeshFile) -> String {
+    let known = MESH_UNITS.iter().find(|(_, metres)| *metres == mesh.unit);
+    // A scene made by hand may have another unit; that is refused when it is read, not written as a false one.
+    let unit = known.map_or_else(
+        || quantity(Dimension::Length, mesh.unit),
+        |(symbol, _)| text(symbol),
+    );
+    format!(
+        "file: {}, unit: {unit}",
+        text(&mesh.path.display().to_string())
     )
 }
 

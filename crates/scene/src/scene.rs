@@ -1,9 +1,17 @@
 //! The checked scene: plain SI numbers, every choice an enum, every default filled in.
 
+mod flow;
+mod motion;
+mod wall;
+
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
 use glam::DVec3;
+
+pub use flow::{Conveying, Fate, Inlet, Measures, Outlet, Region};
+pub use motion::{Begin, Course, Motion, Shift, Turn};
+pub use wall::{Hand, MeshFile, MeshSurface, Removal, Shape, TouchesAt, Wall};
 
 /// A scene that has passed every check of this crate; all numbers are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,12 +30,18 @@ pub struct Scene {
     pub walls: Vec<Wall>,
     /// Where the grains are at the start.
     pub initial: Initial,
-    /// When the grains count as still; present exactly when a wall waits for it.
+    /// Where grains leave, in the order of the file.
+    pub outlets: Vec<Outlet>,
+    /// Where grains come in, in the order of the file.
+    pub inlets: Vec<Inlet>,
+    /// When the grains count as still; present exactly when a wall waits for it, to be removed or to move.
     pub still: Option<Still>,
     /// The step, the scheme and the end.
     pub time: Time,
     /// Skin of the neighbour list as a share of the grain's diameter; `None`: the program chooses.
     pub skin: Option<f64>,
+    /// What is measured beside the usual.
+    pub measures: Measures,
     /// What is written.
     pub output: Output,
 }
@@ -163,90 +177,52 @@ pub enum Axis {
     Periodic(f64),
 }
 
-/// A wall.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Wall {
-    /// Unique, not empty, without `.`, `[`, `]` and `=`.
-    pub name: String,
-    /// Its surface.
-    pub shape: Shape,
-    /// Restitution in (0, 1]; `None`: elastic, without damping.
-    pub restitution: Option<f64>,
-    /// Coefficient of kinetic friction; `None`: smooth.
-    pub friction: Option<f64>,
-    /// Where a grain touches it.
-    pub touches_at: TouchesAt,
-    /// When it is taken away.
-    pub removed: Removal,
-}
-
-/// The surface of a wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
-    /// Everything behind a plane.
-    HalfSpace {
-        /// A point of the plane, m.
-        point: DVec3,
-        /// The outward normal, towards the grains, of length 1.
-        outward: DVec3,
-    },
-}
-
-/// Which distance from the surface enters the law in place of the distance of two centres.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum TouchesAt {
-    /// s = R + d/2: the grain's surface touches the wall.
-    #[default]
-    Surface,
-    /// s = R, the literal reading of the paper: the wall stands d/2 further in.
-    Centre,
-}
-
-/// When a wall is taken away.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Removal {
-    /// It stays.
-    #[default]
-    Never,
-    /// Once the grains are still, see [`Still`].
-    WhenStill,
-    /// At this time from the start, s.
-    At(f64),
-}
-
 /// Where the grains are at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Initial {
     /// Read from this file (an absolute path), see [`GrainFile`](crate::GrainFile).
     File(PathBuf),
-    /// Placed at random in a box.
+    /// Placed at random in a box or in a mesh.
     Fill(Fill),
     /// Listed in the scene.
     Grains(Vec<StartingGrain>),
 }
 
-/// A box to be filled with grains at random.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Room to be filled with grains at random: a box, the inside of a mesh, or what both have in common.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Fill {
-    /// Lower corner, m.
-    pub min: DVec3,
-    /// Upper corner, m; in the plane its y is zero as that of the lower one.
-    pub max: DVec3,
-    /// Share of the box (in the plane: of its area) taken by grains.
+    /// The box; `None` only with a mesh: the box around it.
+    pub region: Option<Region>,
+    /// Grains are only placed inside this closed mesh; `None`: anywhere in the box.
+    pub within: Option<MeshFile>,
+    /// Share of that room (in the plane: of its area) taken by grains.
     pub solid_fraction: f64,
     /// Seed of the random places.
     pub seed: u64,
 }
 
 impl Fill {
-    /// Number of grains of this diameter (m) that the fill asks for, rounded to the nearest; huge boxes saturate.
+    /// Number of grains of this diameter (m) that the fill asks for in its box, see [`count_in`](Fill::count_in).
+    /// Without a box it is 0: the room inside the mesh is known only once the mesh is read.
     pub fn count(&self, diameter: f64, space: Space) -> usize {
-        let size = self.max - self.min;
-        let share = match space {
-            Space::Space => size.x * size.y * size.z / (PI / 6.0 * diameter.powi(3)),
-            Space::Plane => size.x * size.z / (PI / 4.0 * diameter.powi(2)),
+        let size = self
+            .region
+            .map_or(DVec3::ZERO, |region| region.max - region.min);
+        let room = match space {
+            Space::Space => size.x * size.y * size.z,
+            Space::Plane => size.x * size.z,
         };
-        (self.solid_fraction * share).round() as usize
+        self.count_in(room, diameter, space)
+    }
+
+    /// Number of grains of this diameter (m) that the fill asks for in so much room (m³, in the plane m²),
+    /// rounded to the nearest; huge rooms saturate.
+    pub fn count_in(&self, room: f64, diameter: f64, space: Space) -> usize {
+        let grain = match space {
+            Space::Space => PI / 6.0 * diameter.powi(3),
+            Space::Plane => PI / 4.0 * diameter.powi(2),
+        };
+        (self.solid_fraction * (room / grain)).round() as usize
     }
 }
 
@@ -269,7 +245,7 @@ pub struct Still {
     /// The run fails when they are not still by this time from the start, s.
     pub at_most: f64,
     /// Share of the grains' damping while they settle, in (0, 1]: creep to rest is faster with less.
-    /// The full damping acts from the removal of the wall on.
+    /// The full damping acts from the moment of stillness on.
     pub damping: f64,
 }
 
@@ -320,7 +296,7 @@ pub enum Integrator {
 /// The end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
-    /// At this time, s, from the removal of the wall that waits for stillness if there is one, else from the start.
+    /// At this time, s, from the moment of stillness if a wall waits for it, else from the start.
     Until(f64),
     /// After this many steps, counted from the same moment.
     Steps(u64),
@@ -354,10 +330,21 @@ impl Default for Output {
 }
 
 impl Scene {
-    /// Whether a wall waits for the grains to be still.
+    /// Whether a wall waits for the grains to be still, to be removed or to begin to move.
     pub fn waits_for_stillness(&self) -> bool {
+        self.removes_when_still() || self.moves_when_still()
+    }
+
+    pub(crate) fn removes_when_still(&self) -> bool {
         self.walls
             .iter()
             .any(|wall| wall.removed == Removal::WhenStill)
+    }
+
+    pub(crate) fn moves_when_still(&self) -> bool {
+        let waits = |motion: &Motion| motion.begins == Begin::WhenStill;
+        self.walls
+            .iter()
+            .any(|wall| wall.motion.as_ref().is_some_and(waits))
     }
 }

@@ -147,12 +147,11 @@ impl Override<'_> {
         }]
     }
 
-    /// Whether this names the file of grains.
+    /// Whether this names a file: of grains, or of a mesh.
     fn is_file(&self) -> bool {
         self.parts
-            .iter()
-            .map(|part| &self.spec[part.clone()])
-            .eq(["initial", "file"])
+            .last()
+            .is_some_and(|part| &self.spec[part.clone()] == "file")
     }
 
     fn quoted(&self, number: usize) -> Vec<Piece> {

@@ -53,8 +53,8 @@ impl Source {
     /// `grains.coarse=3`, `walls[0].friction=0.2`, `walls.floor.friction=0.2`, `grains.law.stiffness=YoungModulus("1 GPa")`.
     /// A value stands there as in the file; a text or a quantity may go without its quotes: `time.until=2 s`.
     /// A field that the scene lacks is added, and the one that excludes it is removed (`initial.file` for
-    /// `initial.fill`). A relative `initial.file` that exists from the current folder is that file; else it starts
-    /// from the scene's folder, as in the scene.
+    /// `initial.fill`). A relative path to a file of grains or of a mesh that exists from the current folder is that
+    /// file; else it starts from the scene's folder, as in the scene.
     ///
     /// # Errors
     /// When there is no `=`, the path leads nowhere, or the scene's brackets do not match.

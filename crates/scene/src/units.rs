@@ -39,6 +39,8 @@ pub enum Dimension {
     Angle,
     /// In rad/s.
     AngularVelocity,
+    /// In Hz.
+    Frequency,
 }
 
 /// A unit is worth `factor` × 10^`power` of the SI unit.
@@ -111,6 +113,9 @@ const UNITS: &[Unit] = &[
     unit(AngularVelocity, "rpm", PI / 30.0, 0),
     unit(AngularVelocity, "r/min", PI / 30.0, 0),
     unit(AngularVelocity, "rev/s", 2.0 * PI, 0),
+    unit(Frequency, "Hz", 1.0, 0),
+    unit(Frequency, "kHz", 1.0, 3),
+    unit(Frequency, "1/s", 1.0, 0),
 ];
 
 impl Dimension {
@@ -137,6 +142,7 @@ impl Dimension {
             Damping => ("a damping coefficient", "0.1257 kg/s"),
             Angle => ("an angle", "30 deg"),
             AngularVelocity => ("an angular velocity", "100 rpm"),
+            Frequency => ("a frequency", "50 Hz"),
         }
     }
 
@@ -318,6 +324,11 @@ mod tests {
             (Pressure, "3.096 GPa", 3.096e9),
             (Time, "1.5 min", 90.0),
             (AngularVelocity, "60 rpm", 2.0 * PI),
+            (AngularVelocity, "6.5 rad/s", 6.5),
+            (AngularVelocity, "1 rev/s", 2.0 * PI),
+            (Frequency, "50 Hz", 50.0),
+            (Frequency, "0.05 kHz", 50.0),
+            (Frequency, "50 1/s", 50.0),
         ] {
             assert_eq!(read(dimension, text), Ok(value), "{text}");
         }
@@ -342,6 +353,12 @@ mod tests {
                 "“mm” is a length, but an energy is expected here",
             ),
             (Length, "1 e mm", "unknown unit"),
+            (
+                Frequency,
+                "60 rpm",
+                "“rpm” is an angular velocity, but a frequency is expected here",
+            ),
+            (AngularVelocity, "60 rmp", "did you mean “rpm”?"),
         ] {
             let error = read(dimension, text)
                 .map_or_else(|error| error.to_string(), |value| value.to_string());
@@ -364,7 +381,7 @@ mod tests {
     proptest! {
         #[test]
         fn what_is_written_reads_back(value in proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL | proptest::num::f64::ZERO) {
-            for dimension in [Length, Time, Mass, Density, Pressure, Velocity, Acceleration, Energy, Damping, Angle, AngularVelocity] {
+            for dimension in [Length, Time, Mass, Density, Pressure, Velocity, Acceleration, Energy, Damping, Angle, AngularVelocity, Frequency] {
                 prop_assert_eq!(read(dimension, &write(dimension, value)), Ok(value));
             }
         }

@@ -1,14 +1,20 @@
 //! What a single field cannot know: ranges, names, and which fields go together.
 
+mod flow;
 mod grains;
 mod initial;
+mod measures;
+mod motion;
+mod room;
+mod shapes;
 mod time;
+mod vectors;
 mod walls;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::raw::{ONE_OF, RawAxis, RawDomain, RawScene, RawSpace};
-use crate::scene::{Axis, Domain, Output, Scene, Space};
+use crate::raw::{ONE_OF, RawScene, RawSpace};
+use crate::scene::{Domain, Measures, Output, Scene, Space};
 
 /// A rule that a scene breaks, at the field of a path.
 pub(crate) struct Refusal {
@@ -57,6 +63,11 @@ impl<'a> Rules<'a> {
             .map_or(Domain::default(), |domain| self.domain(domain, gravity));
         let walls = self.walls(raw.walls.unwrap_or_default(), &domain);
         let initial = self.initial(raw.initial, &domain);
+        let (outlets, inlets) = self.flow(
+            raw.outlets.unwrap_or_default(),
+            raw.inlets.unwrap_or_default(),
+            &domain,
+        );
         let still = raw.still.map(|still| self.still(&still));
         let time = self.time(&raw.time);
         let skin = raw
@@ -70,6 +81,9 @@ impl<'a> Rules<'a> {
                 "it is a share of the grain's diameter, usually 0.05 to 0.3",
             );
         }
+        let measures = raw.measures.map_or(Measures::default(), |measures| {
+            self.measures(&measures, &walls, &outlets)
+        });
         let output = raw
             .output
             .map_or(Output::default(), |output| self.output(&output));
@@ -81,35 +95,15 @@ impl<'a> Rules<'a> {
             domain,
             walls,
             initial: initial?,
+            outlets,
+            inlets,
             still,
             time: time?,
             skin,
+            measures,
             output,
         };
-        if scene.waits_for_stillness() && scene.still.is_none() {
-            let remedy =
-                "add still: (kinetic_energy: 1e-4, for_at_least: \"20 ms\", at_most: \"3 s\")";
-            self.refuse(
-                "",
-                "a wall is removed WhenStill, but the block “still” does not say when that is",
-                remedy,
-            );
-        }
-        if scene.waits_for_stillness() && scene.gravity == 0.0 {
-            self.refuse(
-                "gravity",
-                "a wall is removed WhenStill, which is measured against m g d, but there is no gravity",
-                "give gravity a value, or remove the wall At(\"…\")",
-            );
-        }
-        if !scene.waits_for_stillness() && scene.still.is_some() {
-            let remedy = "remove the block, or write removed: WhenStill for a wall";
-            self.refuse(
-                "still",
-                "no wall is removed WhenStill, so “still” would be ignored",
-                remedy,
-            );
-        }
+        self.stillness(&scene);
         Some(scene)
     }
 
@@ -124,6 +118,19 @@ impl<'a> Rules<'a> {
             what: what.into(),
             remedy: remedy.into(),
         });
+    }
+
+    /// The absolute path of a file, which a scene names from its own folder; `kind` is what the file holds.
+    fn file(&mut self, path: &str, kind: &str, file: &str) -> PathBuf {
+        if file.trim().is_empty() {
+            self.refuse(
+                path,
+                format!("the path of the {kind} file is empty"),
+                "write its path, relative to the scene's folder",
+            );
+        }
+        let path = self.folder.join(file);
+        std::path::absolute(&path).unwrap_or(path)
     }
 
     fn above_zero(&mut self, path: &str, name: &str, value: f64) -> f64 {
@@ -176,39 +183,6 @@ impl<'a> Rules<'a> {
                     format!("give exactly one of {list}"),
                 );
             }
-        }
-    }
-
-    fn domain(&mut self, raw: RawDomain, gravity: f64) -> Domain {
-        if self.space == Space::Plane && raw.y.is_some() {
-            self.refuse(
-                "domain.y",
-                "a plane scene has no y axis",
-                "remove y, or write space: Space",
-            );
-        }
-        if gravity > 0.0 && matches!(raw.z, Some(RawAxis::Periodic(_))) {
-            self.refuse(
-                "domain.z",
-                "grains would fall for ever through a periodic z",
-                "write z: Open, or gravity: \"0 m/s2\"",
-            );
-        }
-        Domain {
-            x: self.axis("domain.x", raw.x),
-            y: self.axis("domain.y", raw.y),
-            z: self.axis("domain.z", raw.z),
-        }
-    }
-
-    fn axis(&mut self, path: &str, raw: Option<RawAxis>) -> Axis {
-        match raw {
-            None | Some(RawAxis::Open) => Axis::Open,
-            Some(RawAxis::Periodic(length)) => Axis::Periodic(self.above_zero(
-                &format!("{path}[0]"),
-                "the periodic length",
-                length.0,
-            )),
         }
     }
 }

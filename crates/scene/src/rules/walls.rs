@@ -1,18 +1,17 @@
-//! The rules of walls.
-
-use glam::DVec3;
+//! The rules of walls, and of names.
 
 use super::Rules;
-use crate::raw::{RawRemoval, RawShape, RawTouchesAt, RawWall};
-use crate::scene::{Axis, Domain, Removal, Shape, Space, TouchesAt, Wall};
+use crate::raw::{RawRemoval, RawTouchesAt, RawWall};
+use crate::scene::{Begin, Domain, Motion, Removal, Scene, TouchesAt, Wall};
 
 impl Rules<'_> {
     pub(super) fn walls(&mut self, raw: Vec<RawWall>, domain: &Domain) -> Vec<Wall> {
         let mut walls: Vec<Wall> = Vec::with_capacity(raw.len());
         for (i, raw) in raw.into_iter().enumerate() {
             let path = format!("walls[{i}]");
-            self.wall_name(&path, &raw.name, &walls);
-            let shape = self.shape(&path, &raw.shape, domain);
+            let twice = walls.iter().any(|wall| wall.name == raw.name);
+            self.name(&path, ["a wall", "two walls"], &raw.name, twice);
+            let shape = self.shape(&format!("{path}.shape"), &raw.shape, domain);
             let restitution = raw.restitution.map(|restitution| restitution.0);
             if restitution.is_some_and(|restitution| !(restitution > 0.0 && restitution <= 1.0)) {
                 let remedy =
@@ -39,6 +38,12 @@ impl Rules<'_> {
                 None | Some(RawTouchesAt::Surface) => TouchesAt::Surface,
                 Some(RawTouchesAt::Centre) => TouchesAt::Centre,
             };
+            let motion = raw
+                .motion
+                .map(|motion| self.motion(&format!("{path}.motion"), &motion, &shape, domain));
+            if let Some(motion) = &motion {
+                self.moves_while_there(&path, motion, removed);
+            }
             walls.push(Wall {
                 name: raw.name,
                 shape,
@@ -46,17 +51,36 @@ impl Rules<'_> {
                 friction,
                 touches_at,
                 removed,
+                motion,
             });
         }
         walls
     }
 
-    fn wall_name(&mut self, path: &str, name: &str, before: &[Wall]) {
+    /// Refuses a motion that begins when its wall is gone.
+    fn moves_while_there(&mut self, path: &str, motion: &Motion, removed: Removal) {
+        let late = match (removed, motion.begins) {
+            (Removal::At(gone), Begin::At(begins)) => begins >= gone,
+            (Removal::WhenStill, Begin::WhenStill) => true,
+            _ => false,
+        };
+        if late {
+            self.refuse(
+                format!("{path}.motion"),
+                "this wall is gone by the time it would begin to move",
+                "let it begin earlier, or remove it later",
+            );
+        }
+    }
+
+    /// Refuses a name that paths could not tell from something else; `owners` are one of its kind and two.
+    pub(super) fn name(&mut self, path: &str, owners: [&str; 2], name: &str, twice: bool) {
         let path = format!("{path}.name");
+        let [one, two] = owners;
         if name.trim().is_empty() {
             self.refuse(
                 path,
-                "a wall's name is empty",
+                format!("{one}'s name is empty"),
                 "name it, as in \"floor\": messages and results speak of it by name",
             );
         } else if name.contains(['.', '[', ']', '=', '"', '\\'])
@@ -64,99 +88,56 @@ impl Rules<'_> {
         {
             self.refuse(
                 path,
-                "a wall's name holds one of . [ ] = \" \\",
+                format!("{one}'s name holds one of . [ ] = \" \\"),
                 "paths such as walls.floor.friction name it: use letters, digits, spaces, -",
             );
         } else if name.parse::<usize>().is_ok() {
             self.refuse(
                 path,
-                "a wall's name is a number",
+                format!("{one}'s name is a number"),
                 "in paths a number is the place in the list: add a word",
             );
-        } else if before.iter().any(|wall| wall.name == name) {
+        } else if twice {
             self.refuse(
                 path,
-                format!("two walls are named “{name}”"),
+                format!("{two} are named “{name}”"),
                 "give each its own name",
             );
         }
     }
 
-    fn shape(&mut self, path: &str, raw: &RawShape, domain: &Domain) -> Shape {
-        let RawShape::HalfSpace { point, outward } = raw;
-        let point = DVec3::from_array(point.0.map(|length| length.0));
-        self.in_plane(&format!("{path}.shape.point"), point);
-        let path = format!("{path}.shape.outward");
-        let outward = DVec3::from_array(outward.0.map(|number| number.0));
-        self.in_plane(&path, outward);
-        let outward = unit(outward).unwrap_or_else(|| {
-            self.refuse(
-                path.clone(),
-                "the outward normal is zero",
-                "write the direction towards the grains, such as (0, 0, 1)",
-            );
-            DVec3::Z
-        });
-        for (name, axis, part) in [
-            ("x", domain.x, outward.x),
-            ("y", domain.y, outward.y),
-            ("z", domain.z, outward.z),
-        ] {
-            if matches!(axis, Axis::Periodic(_)) && part.abs() > 1e-12 {
-                let what = format!("this wall is not parallel to the periodic axis {name}");
+    /// Whatever waits for stillness needs the block that says when that is, and the block needs someone who waits.
+    pub(super) fn stillness(&mut self, scene: &Scene) {
+        let (waits, instead) = if scene.removes_when_still() {
+            ("a wall is removed WhenStill", "remove the wall At(\"…\")")
+        } else if scene.moves_when_still() {
+            (
+                "a wall begins to move WhenStill",
+                "let its motion begin At(\"…\")",
+            )
+        } else {
+            if scene.still.is_some() {
                 self.refuse(
-                    path.clone(),
-                    what,
-                    format!(
-                        "write {name}: Open in the domain, or a normal without a part along {name}"
-                    ),
+                    "still",
+                    "no wall is removed WhenStill and none begins to move then, so “still” would be ignored",
+                    "remove the block, or write removed: WhenStill for a wall, or begins: WhenStill for its motion",
                 );
             }
-        }
-        Shape::HalfSpace { point, outward }
-    }
-
-    /// Refuses a y other than zero in a plane scene.
-    pub(super) fn in_plane(&mut self, path: &str, vector: DVec3) {
-        if self.space == Space::Plane && vector.y != 0.0 {
+            return;
+        };
+        if scene.still.is_none() {
             self.refuse(
-                format!("{path}[1]"),
-                "a plane scene has no y, but this is not zero",
-                "write zero for y, or space: Space",
+                "",
+                format!("{waits}, but the block “still” does not say when that is"),
+                "add still: (kinetic_energy: 1e-4, for_at_least: \"20 ms\", at_most: \"3 s\")",
             );
         }
-    }
-}
-
-/// The vector at length 1, untouched if it has it already, so that a resolved scene reads back to the bit.
-fn unit(vector: DVec3) -> Option<DVec3> {
-    let largest = vector.abs().max_element();
-    if largest == 0.0 {
-        return None;
-    }
-    let scaled = vector / largest;
-    if (vector.length() - 1.0).abs() <= 4.0 * f64::EPSILON {
-        Some(vector)
-    } else {
-        Some(scaled / scaled.length())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn unit_vectors() {
-        assert_eq!(unit(DVec3::ZERO), None);
-        for vector in [
-            DVec3::new(1e300, 2e300, 0.0),
-            DVec3::new(0.0, 3e-320, 0.0),
-            DVec3::new(1.0, 2.0, 3.0),
-        ] {
-            let once = unit(vector).unwrap_or(DVec3::ZERO);
-            assert!((once.length() - 1.0).abs() < 1e-15);
-            assert_eq!(unit(once), Some(once));
+        if scene.gravity == 0.0 {
+            self.refuse(
+                "gravity",
+                format!("{waits}, which is measured against m g d, but there is no gravity"),
+                format!("give gravity a value, or {instead}"),
+            );
         }
     }
 }

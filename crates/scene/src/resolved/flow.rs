@@ -1,0 +1,67 @@
+//! Outlets, inlets and measures as text.
+
+use std::fmt::{Result, Write};
+
+use super::{quantity, region, text};
+use crate::scene::{Conveying, Fate, Scene};
+use crate::units::Dimension;
+
+impl Scene {
+    pub(super) fn write_flow(&self, out: &mut String) -> Result {
+        writeln!(out, "    outlets: [")?;
+        for outlet in &self.outlets {
+            let then = match &outlet.then {
+                Fate::Delete => "Delete".into(),
+                Fate::Recycle(corners) => format!("Recycle({})", region(corners)),
+            };
+            let (name, region) = (text(&outlet.name), region(&outlet.region));
+            writeln!(
+                out,
+                "        (name: {name}, region: ({region}), then: {then}),"
+            )?;
+        }
+        writeln!(out, "    ],\n    inlets: [")?;
+        for inlet in &self.inlets {
+            let (name, region) = (text(&inlet.name), region(&inlet.region));
+            let (solid_fraction, seed) = (inlet.solid_fraction, inlet.seed);
+            writeln!(
+                out,
+                "        (name: {name}, region: ({region}), solid_fraction: {solid_fraction:?}, seed: {seed}),"
+            )?;
+        }
+        writeln!(out, "    ],")
+    }
+
+    pub(super) fn write_measures(&self, out: &mut String) -> Result {
+        let Some(conveying) = &self.measures.conveying else {
+            return writeln!(out, "    measures: (),");
+        };
+        // The names that the numbers of a checked scene stand for.
+        let screw = self.walls.get(conveying.screw).map(|wall| &wall.name);
+        let outlet = self.outlets.get(conveying.outlet).map(|out| &out.name);
+        writeln!(out, "    measures: (\n        conveying: (")?;
+        for (field, name) in [("screw", screw), ("outlet", outlet)] {
+            let name = name.map_or(String::new(), |name| text(name));
+            writeln!(out, "            {field}: {name},")?;
+        }
+        conveying.write_to(out)?;
+        writeln!(out, "        ),\n    ),")
+    }
+}
+
+impl Conveying {
+    fn write_to(&self, out: &mut String) -> Result {
+        let length = |value: f64| quantity(Dimension::Length, value);
+        for (field, value) in [
+            ("pitch", self.pitch),
+            ("outer", self.outer),
+            ("shaft", self.shaft),
+            ("casing", self.casing),
+        ] {
+            writeln!(out, "            {field}: {},", length(value))?;
+        }
+        let section = self.section.map(length).join(", ");
+        writeln!(out, "            section: ({section}),")?;
+        writeln!(out, "            hopper: ({}),", region(&self.hopper))
+    }
+}

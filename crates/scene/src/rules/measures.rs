@@ -1,0 +1,133 @@
+//! The rules of the measures that a scene asks for.
+
+use super::Rules;
+use crate::raw::{RawConveying, RawMeasures};
+use crate::scene::{Conveying, Measures, Outlet, Shape, Space, Wall};
+
+impl Rules<'_> {
+    pub(super) fn measures(
+        &mut self,
+        raw: &RawMeasures,
+        walls: &[Wall],
+        outlets: &[Outlet],
+    ) -> Measures {
+        Measures {
+            conveying: raw
+                .conveying
+                .as_ref()
+                .map(|raw| self.conveying(raw, walls, outlets)),
+        }
+    }
+
+    fn conveying(&mut self, raw: &RawConveying, walls: &[Wall], outlets: &[Outlet]) -> Conveying {
+        let path = |field: &str| format!("measures.conveying.{field}");
+        if self.space == Space::Plane {
+            self.refuse(
+                "measures.conveying",
+                "a screw does not convey in a plane scene",
+                "remove the measure, or write space: Space",
+            );
+        }
+        let names = walls.iter().map(|wall| wall.name.as_str());
+        let screw = self.found(&path("screw"), "wall", &raw.screw, names);
+        let names = outlets.iter().map(|outlet| outlet.name.as_str());
+        let outlet = self.found(&path("outlet"), "outlet", &raw.outlet, names);
+        let conveying = Conveying {
+            screw: screw.unwrap_or(0),
+            pitch: self.above_zero(&path("pitch"), "the pitch", raw.pitch.0),
+            outer: self.above_zero(&path("outer"), "the outer diameter", raw.outer.0),
+            shaft: self.not_negative(&path("shaft"), "the diameter of the shaft", raw.shaft.0),
+            section: raw.section.0.map(|length| length.0),
+            casing: self.above_zero(&path("casing"), "the diameter of the casing", raw.casing.0),
+            hopper: self.region(&path("hopper"), "box", &raw.hopper),
+            outlet: outlet.unwrap_or(0),
+        };
+        self.above(
+            &path("outer"),
+            ["the outer diameter", "that of the shaft"],
+            conveying.outer,
+            conveying.shaft,
+        );
+        self.above(
+            &path("casing"),
+            ["the diameter of the casing", "that of the screw"],
+            conveying.casing,
+            conveying.outer,
+        );
+        let [first, last] = conveying.section;
+        if first >= last {
+            self.refuse(
+                path("section[1]"),
+                "the section does not end behind its beginning",
+                "write it as (beginning, end), along the axis of the screw's turn from the turn's point",
+            );
+        }
+        if let Some(wall) = screw.and_then(|screw| walls.get(screw)) {
+            self.turns(&path("screw"), wall);
+            self.agrees(wall, &conveying);
+        }
+        conveying
+    }
+
+    /// The place of a name in its list.
+    fn found<'a>(
+        &mut self,
+        path: &str,
+        kind: &str,
+        name: &str,
+        names: impl Iterator<Item = &'a str> + Clone,
+    ) -> Option<usize> {
+        let found = names.clone().position(|other| other == name);
+        if found.is_none() {
+            let all: Vec<_> = names.collect();
+            let remedy = if all.is_empty() {
+                format!("the scene has no {kind}: add one of this name")
+            } else {
+                format!("write one of {}", all.join(", "))
+            };
+            self.refuse(path, format!("no {kind} is named “{name}”"), remedy);
+        }
+        found
+    }
+
+    fn turns(&mut self, path: &str, wall: &Wall) {
+        let turn = wall.motion.as_ref().and_then(|motion| motion.turn);
+        if turn.is_none_or(|turn| turn.rate == 0.0) {
+            self.refuse(
+                path,
+                format!(
+                    "the wall “{}” does not turn, so it conveys nothing",
+                    wall.name
+                ),
+                "give it a motion: (turn: (point: …, axis: …, rate: …)) of a rate other than zero",
+            );
+        }
+    }
+
+    /// Where the wall's shape says what the measure says, both say the same.
+    fn agrees(&mut self, wall: &Wall, conveying: &Conveying) {
+        let Shape::Screw {
+            shaft,
+            outer,
+            pitch,
+            ..
+        } = wall.shape
+        else {
+            return;
+        };
+        for (field, said, is) in [
+            ("pitch", conveying.pitch, pitch),
+            ("outer", conveying.outer, outer),
+            ("shaft", conveying.shaft, shaft),
+        ] {
+            // The slack forgives the rounding of units.
+            if (said - is).abs() > 1e-9 * is.abs() {
+                self.refuse(
+                    format!("measures.conveying.{field}"),
+                    format!("the shape of the wall “{}” has another {field}", wall.name),
+                    format!("write {field}: \"{is:?} m\", as the shape has it"),
+                );
+            }
+        }
+    }
+}
