@@ -221,7 +221,7 @@ impl Screw {
     }
 
     /// A vector of the query's cylindrical frame in space.
-    fn to_space(&self, q: &Query, v: DVec3) -> DVec3 {
+    fn turned_back(&self, q: &Query, v: DVec3) -> DVec3 {
         let (sin, cos) = q.phi.sin_cos();
         self.axis.across[0] * (v.x * cos - v.y * sin)
             + self.axis.across[1] * (self.mirror() * (v.x * sin + v.y * cos))
@@ -254,7 +254,7 @@ impl Solid<Space> for Screw {
             out.hits.push(Hit {
                 of,
                 distance: foot.distance,
-                normal: self.to_space(&q, foot.normal),
+                normal: self.turned_back(&q, foot.normal),
                 feature: foot.part as u32,
             });
         });
