@@ -3,6 +3,7 @@
 //! `validate` holds the simulation against theory, `tidy` holds the sources against the invariants
 //! of the house. Both print what they found and end with exit code 1 on a failure.
 
+mod meshes;
 mod tidy;
 mod validate;
 
@@ -32,6 +33,8 @@ enum Task {
         #[arg(long)]
         full: bool,
     },
+    /// Write the STL files of the screw feeder into scenarios/meshes, and say what is in them.
+    Meshes,
     /// Hold the sources against the invariants of the house.
     Tidy,
 }
@@ -39,6 +42,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Validate { suites, full } => validate::run(&root(), &suites, full),
+        Task::Meshes => meshes::run(&root()),
         Task::Tidy => tidy::run(&root()),
     };
     match outcome {

@@ -8,6 +8,24 @@
 //! assert_eq!(floor.lower_bound(DVec3::new(5.0, 1.0, 0.25)), 0.25);
 //! ```
 
+mod axis;
+mod ball;
+mod cavity;
+mod cuboid;
+mod drawing;
 mod half_space;
+mod profile;
+mod round;
+mod screw;
+mod solid;
+mod torus;
 
+pub use ball::Ball;
+pub use cavity::Cavity;
+pub use cuboid::Cuboid;
+pub use drawing::{steps_for, volume};
 pub use half_space::HalfSpace;
+pub use round::{Cone, Cylinder, HollowCone, Tube};
+pub use screw::{Hand, Screw, ScrewSize};
+pub use solid::{Misshapen, Solid};
+pub use torus::Torus;

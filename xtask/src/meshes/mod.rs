@@ -1,0 +1,181 @@
+//! `cargo xtask meshes`: the STL files of the screw feeder, written from the numbers of paper A.
+//!
+//! Lengths in mm, the screw's axis is the x axis, z is up. The right-handed screw conveys towards +x
+//! when it turns *clockwise* seen from the outlet, that is by a negative angle about +x: its faces
+//! lie at x = p·φ/2π, so turned by α they stand at x = p·(φ − α)/2π, and a plug that cannot turn is
+//! carried by −p·α/2π: one pitch towards +x for every turn of −2π.
+
+mod feeder;
+mod stl;
+
+use std::fs;
+use std::path::Path;
+use tsubu_model::Shell;
+
+/// Where the files go, from the root of the workspace.
+pub const FOLDER: &str = "scenarios/meshes";
+
+/// The turn of a right-handed screw that carries towards +x.
+const TURN: &str = "the screw is right-handed: it conveys towards +x when it turns by a negative angle \
+about +x (clockwise seen from the outlet); a plug that cannot turn advances 150 mm per turn";
+
+/// Writes the files and says what is in them.
+pub fn run(root: &Path) -> Result<bool, String> {
+    let folder = root.join(FOLDER);
+    let fail =
+        |what: &Path, e: std::io::Error| format!("{} cannot be written: {e}", what.display());
+    fs::create_dir_all(&folder).map_err(|e| fail(&folder, e))?;
+    println!(
+        "file          shells  triangles    bytes  volume, l   x, mm           y, mm           z, mm"
+    );
+    for (name, shells) in files()? {
+        let path = folder.join(format!("{name}.stl"));
+        let bytes = stl::bytes(name, &shells);
+        fs::write(&path, &bytes).map_err(|e| fail(&path, e))?;
+        println!("{}", row(name, &shells, bytes.len()));
+    }
+    println!(
+        "chords within {} mm of the surfaces; {TURN}",
+        1e3 * feeder::CHORD
+    );
+    Ok(true)
+}
+
+/// Every file: its name and its closed shells in m.
+fn files() -> Result<[(&'static str, Vec<Shell>); 4], String> {
+    let screw = feeder::screw().map_err(|e| e.to_string())?;
+    Ok([
+        ("screw", vec![screw.mesh(feeder::CHORD)]),
+        ("casing", feeder::casing().map_err(|e| e.to_string())?),
+        ("hopper", feeder::hopper().map_err(|e| e.to_string())?),
+        ("fill", feeder::fill().map_err(|e| e.to_string())?),
+    ])
+}
+
+fn row(name: &str, shells: &[Shell], bytes: usize) -> String {
+    let triangles: usize = shells.iter().map(|s| s.triangles.len()).sum();
+    let litres: f64 = shells.iter().map(tsubu_sdf::volume).sum::<f64>() * 1e3;
+    let corners = shells.iter().flat_map(|s| &s.vertices);
+    let range = |axis: usize| {
+        let (low, high) = corners
+            .clone()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x[axis]), high.max(x[axis]))
+            });
+        format!("{:7.1}…{:<7.1}", 1e3 * low, 1e3 * high)
+    };
+    format!(
+        "{:<12} {:>7} {triangles:>10} {bytes:>8} {litres:>10.4} {} {} {}",
+        format!("{name}.stl"),
+        shells.len(),
+        range(0),
+        range(1),
+        range(2)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashMap;
+    use std::f64::consts::PI;
+
+    /// Volume in mm³ of what an STL file encloses; panics unless every edge belongs to exactly two
+    /// triangles that run through it oppositely.
+    fn closed_volume(name: &str, bytes: &[u8]) -> f64 {
+        let triangles = stl::triangles(bytes).unwrap();
+        let mut edges = HashMap::<[[u32; 3]; 2], i32>::new();
+        let mut six = 0.0;
+        for t in &triangles {
+            let key = t.map(|x| x.map(f32::to_bits));
+            for k in 0..3 {
+                *edges.entry([key[k], key[(k + 1) % 3]]).or_default() += 1;
+            }
+            let [a, b, c] = t.map(|x| glam::DVec3::from(x.map(f64::from)));
+            six += a.dot(b.cross(c));
+        }
+        for (&[a, b], &count) in &edges {
+            assert_eq!(edges.get(&[b, a]), Some(&count), "{name}: an open edge");
+        }
+        six / 6.0
+    }
+
+    #[test]
+    fn every_shell_is_closed_and_has_the_volume_of_its_formula() {
+        let (r, wide) = (114.8f64, 124.8f64);
+        let ring = PI * (wide * wide - r * r);
+        let trough = (0.5 * ring + 2.0 * 10.0 * 160.0) * 318.0;
+        let end = 249.6 * (124.8 + 160.0) * 10.0;
+        let over = (249.6 * 160.0 - 0.5 * PI * 119.8 * 119.8) * 10.0;
+        let flight = 0.5 * 6.0 * (102.5 * 102.5 - 27.5 * 27.5) * 2.0 * PI * (675.0 - 12.0) / 150.0;
+        let expected = [
+            PI * 27.5 * 27.5 * 675.0 + flight,
+            trough + ring * 232.0 + end + over,
+            540.0 * 10.0 * 2.0 * (338.0 + 249.6),
+            306.0 * 218.0 * 580.0,
+        ];
+        for ((name, shells), expected) in files().unwrap().into_iter().zip(expected) {
+            // Each shell by itself first: a gap must not be mended by a neighbour's edge.
+            for shell in &shells {
+                let one = stl::bytes(name, std::slice::from_ref(shell));
+                let volume = closed_volume(name, &one);
+                assert!(volume > 0.0, "{name} is inside out");
+            }
+            let volume = closed_volume(name, &stl::bytes(name, &shells));
+            assert!(
+                (volume / expected - 1.0).abs() < 5e-3,
+                "{name}: {volume} mm³ against {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_shipped_files_are_those_that_the_command_writes() {
+        let folder = crate::root().join(FOLDER);
+        for (name, shells) in files().unwrap() {
+            let shipped = fs::read(folder.join(format!("{name}.stl"))).unwrap();
+            let (a, b) = (
+                stl::triangles(&shipped).unwrap(),
+                stl::triangles(&stl::bytes(name, &shells)).unwrap(),
+            );
+            assert_eq!(a.len(), b.len(), "{name}: run cargo xtask meshes");
+            for (a, b) in a
+                .iter()
+                .flatten()
+                .flatten()
+                .zip(b.iter().flatten().flatten())
+            {
+                // Sines differ by a bit between machines, not by more.
+                assert!((a - b).abs() < 1e-3, "{name}: run cargo xtask meshes");
+            }
+        }
+    }
+
+    #[test]
+    fn the_turn_that_is_printed_carries_a_plug_towards_the_outlet() {
+        use tsubu_model::{Motion, Span, Surface, Turn};
+        let screw = feeder::screw().unwrap();
+        // 60 r/min with the sign that the output states.
+        let motion = Motion {
+            turn: Some(Turn {
+                point: glam::DVec3::ZERO,
+                axis: glam::DVec3::X,
+                rate: -std::f64::consts::TAU,
+                span: Span::ALWAYS,
+            }),
+            shifts: Vec::new(),
+        };
+        // A point on the front face stays on the face when it advances 150 mm per turn straight ahead.
+        let start = glam::DVec3::new(0.153, 0.07, 0.0);
+        for k in 0..=20 {
+            let t = f64::from(k) * 0.1;
+            let plug = start + glam::DVec3::X * (0.150 * t);
+            let distance = screw.lower_bound(motion.at(t).to_body(plug));
+            assert!(
+                distance.abs() < 1e-12,
+                "{distance} m off the face after {t} s"
+            );
+        }
+        assert!(TURN.contains("negative angle"));
+    }
+}
