@@ -1,21 +1,25 @@
 //! Where the run-time choices become types: dimension, damping, tally.
 
 use crate::constants::Constants;
-use crate::gate::WallRemoval;
+use crate::flow::{InletGate, OutletGate};
+use crate::gate::WallChanges;
 use crate::plan::Plan;
 use crate::simulation::{Release, Running, Simulation};
 use crate::start;
+use crate::surfaces::{Shaped, Shapes};
+use std::path::PathBuf;
 use std::sync::Arc;
 use tsubu_engine::{
     Body, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally, World,
 };
-use tsubu_measure::{Balance, Energy, Heap, HeapOptions, Loads, Slices, Structure};
+use tsubu_measure::{
+    Balance, Conveying, ConveyingOptions, Energy, Heap, HeapOptions, Loads, Slices, Structure,
+};
 use tsubu_model::{
     ContactLaw, Dim, Domain, Gate, Motion, Observer, Plane, Space, Still, Surface, Vector,
 };
 use tsubu_scene as scene;
 use tsubu_scene::{Axis, Checked, Removal, SceneError, Shape};
-use tsubu_sdf::HalfSpace;
 
 /// What the caller chooses about the machine, not about the physics. No choice changes a bit of the result.
 #[derive(Clone, Debug, Default)]
@@ -26,6 +30,20 @@ pub struct Choices {
     pub lanes: Option<Lanes>,
     /// Runs a scene whose step is over its limit.
     pub allow_unstable: bool,
+    /// Folder where grids of distances are kept for the next run; `None` builds them every time.
+    pub grids: Option<PathBuf>,
+    /// Hears how far the building of a grid is.
+    pub watch: Option<Watch>,
+}
+
+/// Hears the name of a wall and the share of its grid that is built, from any thread.
+#[derive(Clone)]
+pub struct Watch(pub Arc<dyn Fn(&str, f64) + Send + Sync>);
+
+impl std::fmt::Debug for Watch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Watch")
+    }
 }
 
 /// A scene ready to run.
@@ -48,17 +66,21 @@ pub fn build(checked: &Checked, choices: &Choices) -> Result<Built, SceneError> 
     }
 }
 
-fn in_dimension<D: Layout + Slices>(
+fn in_dimension<D: Shaped + Slices>(
     checked: &Checked,
     choices: &Choices,
 ) -> Result<Built, SceneError> {
-    refuse_unbuilt(checked)?;
-    let surfaces = (0..checked.scene.walls.len())
-        .map(|i| surface_of::<D>(checked, i))
-        .collect::<Result<_, _>>()?;
     let constants = Constants::of(checked)?;
     let domain = domain_of::<D>(checked, &constants)?;
-    let grains = start::grains::<D>(checked, &constants, &domain)?;
+    let shapes = Shapes {
+        checked,
+        choices,
+        diameter: constants.kind.diameter(),
+    };
+    let surfaces = (0..checked.scene.walls.len())
+        .map(|wall| D::surface(&shapes, wall))
+        .collect::<Result<Vec<_>, _>>()?;
+    let grains = start::grains::<D>(checked, &constants, &domain, &surfaces)?;
     let threads = choices
         .threads
         .unwrap_or_else(|| as_many_as_pay(grains.len()))
@@ -135,8 +157,11 @@ impl<D: Layout + Slices> Parts<'_, D> {
                     scene::TouchesAt::Centre => TouchesAt::Centre,
                 },
                 removed_at: None,
-                motion: Motion::default(),
-                waits: false,
+                motion: motion_of(wall),
+                waits: wall
+                    .motion
+                    .as_ref()
+                    .is_some_and(|m| m.begins == scene::Begin::WhenStill),
             })
             .collect();
         let release = release_of(scene);
@@ -159,20 +184,24 @@ impl<D: Layout + Slices> Parts<'_, D> {
             lanes: self.lanes,
             pool: self.pool,
             grains: self.grains,
-            gates: Vec::new(),
+            gates: scene
+                .outlets
+                .iter()
+                .map(|o| o.name.clone())
+                .chain(scene.inlets.iter().map(|i| i.name.clone()))
+                .collect(),
         });
-        let removal = WallRemoval::of(scene);
-        let gates: Vec<Box<dyn Gate<D, Still>>> = if removal.is_needed() {
-            vec![Box::new(removal)]
-        } else {
-            Vec::new()
-        };
+        let movers: Vec<bool> = scene.walls.iter().map(|w| w.motion.is_some()).collect();
         Box::new(Running::<D, L, T> {
-            shells: surfaces.iter().map(|s| s.shell().map(Arc::new)).collect(),
-            movers: vec![false; surfaces.len()],
-            observers: observers_of(scene, self.constants, &self.domain),
+            shells: self
+                .surfaces
+                .iter()
+                .map(|s| s.shell().map(Arc::new))
+                .collect(),
+            observers: observers_of(scene, self.constants, &self.domain, &self.surfaces, &movers),
+            movers,
+            gates: gates_of(scene, self.constants),
             surfaces: self.surfaces,
-            gates,
             gate_every: gate_every(scene, self.constants.dt),
             end: scene.time.end,
             release,
@@ -183,47 +212,51 @@ impl<D: Layout + Slices> Parts<'_, D> {
     }
 }
 
-fn surface_of<D: Dim>(checked: &Checked, wall: usize) -> Result<Arc<dyn Surface<D>>, SceneError> {
-    match &checked.scene.walls[wall].shape {
-        Shape::HalfSpace { point, outward } => Ok(Arc::new(HalfSpace::<D>::new(
-            D::from_space(*point),
-            D::from_space(*outward),
-        ))),
-        other => Err(unbuilt(
-            checked,
-            &format!("walls[{wall}].shape"),
-            other.name(),
-        )),
+/// The motion of a wall, counted from the start, or from the moment for which it waits.
+fn motion_of(wall: &scene::Wall) -> Motion {
+    let Some(motion) = &wall.motion else {
+        return Motion::default();
+    };
+    let start = match motion.begins {
+        scene::Begin::At(time) => time,
+        scene::Begin::WhenStill => 0.0,
+    };
+    let span = Span {
+        start,
+        stop: motion.lasts.map_or(f64::INFINITY, |lasts| start + lasts),
+    };
+    Motion {
+        turn: motion.turn.map(|turn| Turn {
+            point: turn.point,
+            axis: turn.axis,
+            rate: turn.rate,
+            span,
+        }),
+        shifts: motion
+            .shifts
+            .iter()
+            .map(|shift| Shift {
+                direction: shift.direction,
+                course: match shift.course {
+                    scene::Course::Steady(speed) => Course::Steady(speed),
+                    scene::Course::Swing {
+                        amplitude,
+                        frequency,
+                    } => Course::Swing {
+                        amplitude,
+                        frequency,
+                    },
+                },
+                span,
+            })
+            .collect(),
     }
 }
 
-fn unbuilt(checked: &Checked, path: &str, what: &str) -> SceneError {
-    checked.problem(
-        path,
-        format!("{what}: not built yet"),
-        "leave it out for now",
-    )
-}
-
-/// Refuses what the language can say and nothing here can do yet.
-fn refuse_unbuilt(checked: &Checked) -> Result<(), SceneError> {
-    let scene = &checked.scene;
-    let moving = scene.walls.iter().position(|w| w.motion.is_some());
-    let within = matches!(&scene.initial, scene::Initial::Fill(fill) if fill.within.is_some());
-    let paths = [
-        moving.map(|i| format!("walls[{i}].motion")),
-        within.then(|| "initial.fill.within".into()),
-        (!scene.outlets.is_empty()).then(|| "outlets".into()),
-        (!scene.inlets.is_empty()).then(|| "inlets".into()),
-        scene
-            .measures
-            .conveying
-            .map(|_| "measures.conveying".into()),
-    ];
-    match paths.into_iter().flatten().next() {
-        Some(path) => Err(unbuilt(checked, &path, &path)),
-        None => Ok(()),
-    }
+/// True if the wall waits for stillness, to go or to move.
+fn waits(wall: &scene::Wall) -> bool {
+    let starts = |m: &scene::Motion| m.begins == scene::Begin::WhenStill;
+    wall.removed == Removal::WhenStill || wall.motion.as_ref().is_some_and(starts)
 }
 
 fn domain_of<D: Dim>(checked: &Checked, constants: &Constants) -> Result<Domain<D>, SceneError> {
@@ -256,10 +289,7 @@ fn domain_of<D: Dim>(checked: &Checked, constants: &Constants) -> Result<Domain<
 }
 
 fn release_of(scene: &scene::Scene) -> Option<Release> {
-    let body = scene
-        .walls
-        .iter()
-        .position(|w| w.removed == Removal::WhenStill)?;
+    let body = scene.walls.iter().position(waits)?;
     let still = scene.still?;
     Some(Release {
         body,
@@ -277,10 +307,66 @@ fn gate_every(scene: &scene::Scene, dt: f64) -> u64 {
     still.clamp(1, 1000)
 }
 
+fn gates_of<D: Dim>(scene: &scene::Scene, constants: &Constants) -> Vec<Box<dyn Gate<D, Still>>> {
+    let mut gates: Vec<Box<dyn Gate<D, Still>>> = Vec::new();
+    let changes = WallChanges::of(scene);
+    if changes.is_needed() {
+        gates.push(Box::new(changes));
+    }
+    for (number, outlet) in scene.outlets.iter().enumerate() {
+        gates.push(Box::new(OutletGate {
+            outlet: outlet.clone(),
+            number,
+            seed: number as u64,
+        }));
+    }
+    for (number, inlet) in scene.inlets.iter().enumerate() {
+        gates.push(Box::new(InletGate {
+            inlet: inlet.clone(),
+            number: scene.outlets.len() + number,
+            diameter: constants.kind.diameter(),
+        }));
+    }
+    gates
+}
+
+/// The measures of a screw conveyor; its axis points the way it feeds.
+fn conveying_of<D: Dim>(
+    scene: &scene::Scene,
+    wanted: &scene::Conveying,
+    surfaces: &[Arc<dyn Surface<D>>],
+) -> Option<Conveying> {
+    let turn = scene.walls[wanted.screw].motion.as_ref()?.turn?;
+    let section = (wanted.section[0], wanted.section[1]);
+    let ends = surfaces[wanted.screw].bounds().map(|[low, high]| {
+        let (a, b) = (
+            (low - turn.point).dot(turn.axis),
+            (high - turn.point).dot(turn.axis),
+        );
+        (a.min(b), a.max(b))
+    });
+    Some(Conveying::new(ConveyingOptions {
+        screw: wanted.screw,
+        outlet: wanted.outlet,
+        point: turn.point,
+        direction: turn.axis,
+        section,
+        along: ends.unwrap_or(section),
+        pitch: wanted.pitch,
+        outer: wanted.outer,
+        shaft: wanted.shaft,
+        casing: wanted.casing,
+        hopper: [wanted.hopper.min, wanted.hopper.max],
+        density: scene.grains.density(),
+    }))
+}
+
 fn observers_of<D: Slices>(
     scene: &scene::Scene,
     constants: &Constants,
     domain: &Domain<D>,
+    surfaces: &[Arc<dyn Surface<D>>],
+    movers: &[bool],
 ) -> Vec<Box<dyn Observer<D, Still>>> {
     let mut observers: Vec<Box<dyn Observer<D, Still>>> = Vec::new();
     let depth = (D::V::AXES == 3 && domain.is_periodic(1)).then(|| domain.period.axis(1));
@@ -304,12 +390,16 @@ fn observers_of<D: Slices>(
             snapshots: vec![0.1, 0.2, 0.4, 0.6, 1.0, 1.4, 2.0, 3.0, 5.0],
         })));
     }
+    if let Some(wanted) = &scene.measures.conveying {
+        let conveying = conveying_of(scene, wanted, surfaces);
+        observers.extend(conveying.map(|c| Box::new(c) as Box<dyn Observer<D, Still>>));
+    }
     if scene.output.energies {
         observers.push(Box::new(Energy::new()));
     }
     observers.push(Box::new(Structure::new(depth)));
     observers.push(Box::new(Balance::new()));
-    observers.push(Box::new(Loads::new(vec![false; scene.walls.len()])));
+    observers.push(Box::new(Loads::new(movers.to_vec())));
     observers
 }
 

@@ -13,14 +13,15 @@ pub(crate) struct Box3 {
     pub max: DVec3,
 }
 
-/// Places for `count` grains of this diameter, none overlapping another or sticking out of the box
-/// (periodic axes have no side to stick out of). `Err` says how many fitted.
+/// Places for `count` grains of this diameter where `free` allows it, none overlapping another or sticking
+/// out of the box (periodic axes have no side to stick out of). `Err` says how many fitted.
 pub(crate) fn fill<D: Dim>(
     region: &Box3,
     count: usize,
     diameter: f64,
     domain: &Domain<D>,
     seed: u64,
+    free: &mut dyn FnMut(D::V) -> bool,
 ) -> Result<Vec<D::V>, usize> {
     let axes = D::V::AXES;
     let (min, max) = (D::from_space(region.min), D::from_space(region.max));
@@ -80,7 +81,7 @@ pub(crate) fn fill<D: Dim>(
             if grid[index(c)] != u32::MAX {
                 return None;
             }
-            let free = around(
+            let alone = around(
                 c,
                 cells,
                 [full(0), axes > 1 && full(1), axes > 2 && full(2)],
@@ -93,7 +94,8 @@ pub(crate) fn fill<D: Dim>(
                         .length_squared()
                         >= d2
             });
-            free.then_some((x, c))
+            // The surfaces are asked last: they cost most.
+            (alone && free(x)).then_some((x, c))
         });
         let Some((x, c)) = spot else {
             return Err(grain);
@@ -153,7 +155,7 @@ mod tests {
             min: DVec3::ZERO,
             max: DVec3::new(10.0, 5.0, 12.0),
         };
-        let places = fill::<Space>(&region, 320, 1.0, &domain, 3).unwrap();
+        let places = fill::<Space>(&region, 320, 1.0, &domain, 3, &mut |_| true).unwrap();
         assert!(closest::<Space>(&places, &domain) >= 1.0);
         assert!(
             places
@@ -167,7 +169,7 @@ mod tests {
         let plane = Domain::<Plane> {
             period: DVec2::INFINITY,
         };
-        let places = fill::<Plane>(&region, 60, 1.0, &plane, 3).unwrap();
+        let places = fill::<Plane>(&region, 60, 1.0, &plane, 3, &mut |_| true).unwrap();
         assert!(closest::<Plane>(&places, &plane) >= 1.0);
     }
 
@@ -177,12 +179,16 @@ mod tests {
             min: DVec3::ZERO,
             max: DVec3::splat(3.0),
         };
-        let fitted = fill::<Space>(&region, 500, 1.0, &Domain::open(), 1).unwrap_err();
+        let fitted =
+            fill::<Space>(&region, 500, 1.0, &Domain::open(), 1, &mut |_| true).unwrap_err();
         assert!(fitted > 8 && fitted < 40, "{fitted}");
         let flat = Box3 {
             min: DVec3::ZERO,
             max: DVec3::new(3.0, 3.0, 0.5),
         };
-        assert_eq!(fill::<Space>(&flat, 2, 1.0, &Domain::open(), 1), Err(0));
+        assert_eq!(
+            fill::<Space>(&flat, 2, 1.0, &Domain::open(), 1, &mut |_| true),
+            Err(0)
+        );
     }
 }

@@ -63,10 +63,7 @@ impl<D: Dim, S: SpinState> Gate<D, S> for InletGate {
         let region = &self.inlet.region;
         let size = region.max - region.min;
         let (room, grain) = if D::V::AXES == 3 {
-            (
-                size.x * size.y * size.z,
-                PI / 6.0 * self.diameter.powi(3),
-            )
+            (size.x * size.y * size.z, PI / 6.0 * self.diameter.powi(3))
         } else {
             (size.x * size.z, PI / 4.0 * self.diameter.powi(2))
         };

@@ -1,19 +1,31 @@
-//! The gate that takes walls away: at a time, or once the grains are still.
+//! The gate that takes walls away or lets them start: at a time, or once the grains are still.
 
 use tsubu_model::{Change, Dim, Gate, SpinState, Vector, View};
-use tsubu_scene::{Removal, Scene, Still};
+use tsubu_scene::{Begin, Removal, Scene, Still};
 
-/// Removes walls as the scene says.
-pub(crate) struct WallRemoval {
+/// Removes walls, and starts those that wait for it, as the scene says.
+pub(crate) struct WallChanges {
     when: Vec<Removal>,
+    /// Which walls wait for stillness to move.
+    starts: Vec<bool>,
+    started: bool,
     still: Option<Still>,
     calm_since: Option<f64>,
 }
 
-impl WallRemoval {
+impl WallChanges {
     pub fn of(scene: &Scene) -> Self {
         Self {
             when: scene.walls.iter().map(|w| w.removed).collect(),
+            starts: scene
+                .walls
+                .iter()
+                .map(|w| {
+                    let begins = w.motion.as_ref().map(|m| m.begins);
+                    begins == Some(Begin::WhenStill)
+                })
+                .collect(),
+            started: false,
             still: scene.still,
             calm_since: None,
         }
@@ -21,7 +33,7 @@ impl WallRemoval {
 
     /// True if some wall is still waiting at `time` for something other than never.
     pub fn is_needed(&self) -> bool {
-        self.when.iter().any(|w| *w != Removal::Never)
+        self.when.iter().any(|w| *w != Removal::Never) || self.starts.contains(&true)
     }
 }
 
@@ -37,7 +49,7 @@ pub(crate) fn agitation<D: Dim, S: SpinState>(view: &dyn View<D, S>) -> f64 {
     if scale > 0.0 { kinetic / scale } else { 0.0 }
 }
 
-impl<D: Dim, S: SpinState> Gate<D, S> for WallRemoval {
+impl<D: Dim, S: SpinState> Gate<D, S> for WallChanges {
     fn decide(&mut self, view: &dyn View<D, S>, out: &mut Vec<Change>) {
         let now = view.time();
         let bodies = view.bodies();
@@ -50,9 +62,14 @@ impl<D: Dim, S: SpinState> Gate<D, S> for WallRemoval {
                 out.push(Change::RemoveBody(k));
             }
         }
-        let waiting: Vec<usize> = (0..bodies.len())
+        let mut waiting: Vec<Change> = (0..bodies.len())
             .filter(|&k| waits(k, |w| *w == Removal::WhenStill))
+            .map(Change::RemoveBody)
             .collect();
+        if !self.started {
+            let starting = (0..bodies.len()).filter(|&k| self.starts[k]);
+            waiting.extend(starting.map(Change::StartBody));
+        }
         let Some(still) = self.still.filter(|_| !waiting.is_empty()) else {
             return;
         };
@@ -62,7 +79,8 @@ impl<D: Dim, S: SpinState> Gate<D, S> for WallRemoval {
         }
         let since = *self.calm_since.get_or_insert(now);
         if now - since >= still.for_at_least {
-            out.extend(waiting.into_iter().map(Change::RemoveBody));
+            self.started = true;
+            out.append(&mut waiting);
         }
     }
 }

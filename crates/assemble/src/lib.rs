@@ -32,13 +32,15 @@
 mod build;
 mod constants;
 mod fill;
+mod flow;
 mod gate;
 mod plan;
 mod random;
 mod simulation;
 mod start;
+mod surfaces;
 
-pub use build::{Built, Choices, build};
+pub use build::{Built, Choices, Watch, build};
 pub use constants::Constants;
 pub use plan::{LimitLine, Plan};
 pub use simulation::{Grain, Machine, Simulation, Snapshot, Stop};

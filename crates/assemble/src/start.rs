@@ -2,10 +2,15 @@
 
 use crate::constants::Constants;
 use crate::fill::{Box3, fill};
+use crate::surfaces::read_mesh;
+use glam::DVec3;
+use std::sync::Arc;
 use tsubu_engine::Placed;
-use tsubu_model::{Dim, Domain, Vector};
+use tsubu_model::{Dim, Domain, HitBuffer, Surface, Vector};
 use tsubu_neighbors::{CellGrid, ChunkList};
-use tsubu_scene::{Checked, Initial, SceneError, TouchesAt};
+use tsubu_scene::{Checked, Initial, MeshFile, Region, SceneError, TouchesAt, Wall};
+use tsubu_sdf::mesh::{Report, Verdict};
+use tsubu_sdf::{ExactMesh, Winding};
 
 /// Overlap over the diameter above which a start is refused: a settled bed under its own weight has
 /// some 1e-4; at a hundredth grains of a stiff law would be shot apart.
@@ -16,6 +21,7 @@ pub(crate) fn grains<D: Dim>(
     checked: &Checked,
     constants: &Constants,
     domain: &Domain<D>,
+    surfaces: &[Arc<dyn Surface<D>>],
 ) -> Result<Vec<Placed<D>>, SceneError> {
     let diameter = constants.kind.diameter();
     let grains: Vec<Placed<D>> = match checked.starting_grains()? {
@@ -37,9 +43,9 @@ pub(crate) fn grains<D: Dim>(
                 })
                 .collect()
         }
-        None => filled(checked, diameter, domain)?,
+        None => filled(checked, diameter, domain, surfaces)?,
     };
-    refuse_walls(checked, &grains, diameter)?;
+    refuse_walls(checked, &grains, diameter, surfaces)?;
     refuse_overlaps(checked, &grains, diameter, domain)?;
     Ok(grains)
 }
@@ -48,11 +54,28 @@ fn filled<D: Dim>(
     checked: &Checked,
     diameter: f64,
     domain: &Domain<D>,
+    surfaces: &[Arc<dyn Surface<D>>],
 ) -> Result<Vec<Placed<D>>, SceneError> {
-    let Initial::Fill(wish) = &checked.scene.initial else {
+    let scene = &checked.scene;
+    let Initial::Fill(wish) = &scene.initial else {
         return Ok(Vec::new());
     };
-    let count = wish.count(diameter, checked.scene.space);
+    let inside = wish
+        .within
+        .as_ref()
+        .map(|file| Inside::of(checked, file))
+        .transpose()?;
+    let region = wish
+        .region
+        .or_else(|| inside.as_ref().map(|i| i.region))
+        .unwrap_or(Region {
+            min: DVec3::ZERO,
+            max: DVec3::ZERO,
+        });
+    let count = match &inside {
+        None => wish.count(diameter, scene.space),
+        Some(inside) => wish.count_in(inside.volume_in(&region), diameter, scene.space),
+    };
     if count == 0 {
         let what = format!(
             "the region has no room for a single grain of {:.4} mm at this solid fraction",
@@ -72,8 +95,25 @@ fn filled<D: Dim>(
             "shrink the region or raise grains.coarse",
         ));
     }
-    let Some(region) = wish.region else {
-        return Ok(Vec::new());
+    // Bodies within the region are filled around; a wall without end that cuts it is a mistake, refused later.
+    let bodies: Vec<(&Arc<dyn Surface<D>>, f64)> = surfaces
+        .iter()
+        .zip(&scene.walls)
+        .filter(|(surface, _)| surface.bounds().is_some())
+        .map(|(surface, wall)| (surface, clearance(wall, diameter)))
+        .collect();
+    let mut hits = HitBuffer::default();
+    let mut free = |x: D::V| {
+        let clear = bodies.iter().all(|(surface, reach)| {
+            if surface.lower_bound(x) >= *reach {
+                return true;
+            }
+            hits.hits.clear();
+            surface.hits(&[x], &[*reach], &mut hits);
+            hits.hits.is_empty()
+        });
+        let holds = |inside: &Inside| inside.holds(D::to_space(x), 0.5 * diameter);
+        clear && inside.as_ref().is_none_or(holds)
     };
     let places = fill::<D>(
         &Box3 {
@@ -84,6 +124,7 @@ fn filled<D: Dim>(
         diameter,
         domain,
         wish.seed,
+        &mut free,
     );
     places.map(|places| places.into_iter().map(|x| Placed { position: x, velocity: D::V::ZERO, kind: 0 }).collect()).map_err(|fitted| {
         let what = format!("the region has no room: only {fitted} of {count} grains of {:.4} mm could be placed", diameter * 1e3);
@@ -91,22 +132,86 @@ fn filled<D: Dim>(
     })
 }
 
+/// Distance of a grain's centre from a wall at which they begin to touch.
+fn clearance(wall: &Wall, diameter: f64) -> f64 {
+    match wall.touches_at {
+        TouchesAt::Surface => 0.5 * diameter,
+        TouchesAt::Centre => diameter,
+    }
+}
+
+/// The inside of a closed mesh that is to be filled.
+struct Inside {
+    winding: Winding,
+    surface: ExactMesh,
+    region: Region,
+}
+
+impl Inside {
+    fn of(checked: &Checked, file: &MeshFile) -> Result<Self, SceneError> {
+        let path = "initial.fill.within.file";
+        let mesh = read_mesh(checked, path, file)?;
+        if Report::of(&mesh).verdict == Verdict::OpenSheet {
+            let what = "this mesh is an open sheet: it has no inside to fill";
+            return Err(checked.problem(path, what, "close it, or fill a region"));
+        }
+        let (mesh, _) = mesh.repaired();
+        let surface = ExactMesh::body(&mesh)
+            .map_err(|e| checked.problem(path, e.to_string(), "mend the mesh"))?;
+        let [min, max] = mesh.bounds();
+        Ok(Self {
+            winding: Winding::new(&mesh),
+            surface,
+            region: Region { min, max },
+        })
+    }
+
+    /// True if a ball of this radius about `x` lies inside.
+    fn holds(&self, x: DVec3, radius: f64) -> bool {
+        self.winding.inside(x) && self.surface.closest(x, radius).is_none()
+    }
+
+    /// Volume of the part within a box, m³: the share of points of a regular lattice that are inside.
+    fn volume_in(&self, region: &Region) -> f64 {
+        let (low, high) = (
+            region.min.max(self.region.min),
+            region.max.min(self.region.max),
+        );
+        let size = (high - low).max(DVec3::ZERO);
+        const SIDE: usize = 32;
+        let inside = (0..SIDE * SIDE * SIDE)
+            .filter(|k| {
+                let cell = [k % SIDE, k / SIDE % SIDE, k / SIDE / SIDE].map(|c| c as f64 + 0.5);
+                self.winding
+                    .inside(low + size * DVec3::from(cell) / SIDE as f64)
+            })
+            .count();
+        size.x * size.y * size.z * inside as f64 / (SIDE * SIDE * SIDE) as f64
+    }
+}
+
 /// Refuses a grain that starts in a wall: it would be shot off as two overlapping grains are.
 fn refuse_walls<D: Dim>(
     checked: &Checked,
     grains: &[Placed<D>],
     diameter: f64,
+    surfaces: &[Arc<dyn Surface<D>>],
 ) -> Result<(), SceneError> {
-    for wall in &checked.scene.walls {
-        let tsubu_scene::Shape::HalfSpace { point, outward } = &wall.shape else {
-            continue;
-        };
+    let mut hits = HitBuffer::default();
+    for (wall, surface) in checked.scene.walls.iter().zip(surfaces) {
         let offset = match wall.touches_at {
             TouchesAt::Surface => 0.5 * diameter,
             TouchesAt::Centre => 0.0,
         };
         for (i, grain) in grains.iter().enumerate() {
-            let distance = (D::to_space(grain.position) - *point).dot(*outward);
+            let reach = clearance(wall, diameter);
+            if surface.lower_bound(grain.position) >= reach {
+                continue;
+            }
+            hits.hits.clear();
+            surface.hits(&[grain.position], &[reach], &mut hits);
+            let nearest = hits.hits.iter().map(|hit| hit.distance);
+            let distance = nearest.fold(f64::INFINITY, f64::min);
             let overlap = 1.0 - (distance + offset) / diameter;
             if overlap <= MOST_OVERLAP {
                 continue;

@@ -31,6 +31,9 @@ pub enum Command {
         after_help = "Example:  tsubu check scenarios/angle_of_repose.ron --set grains.coarse=1"
     )]
     Check(CheckWish),
+    /// Look at an STL or OBJ file: what is wrong with it, what a scene can make of it, which cell suits it
+    #[command(after_help = "Example:  tsubu mesh scenarios/meshes/screw.stl")]
+    Mesh(MeshWish),
     /// List the shipped scenes
     Scenes,
     /// Copy a shipped scene here, to edit
@@ -82,6 +85,30 @@ pub struct CheckWish {
     /// Which scene.
     #[command(flatten)]
     pub scene: SceneWish,
+}
+
+/// `tsubu mesh`.
+#[derive(Debug, Args)]
+pub struct MeshWish {
+    /// The file, .stl or .obj
+    pub file: PathBuf,
+    /// Unit of its coordinates
+    #[arg(long, value_parser = unit, default_value = "mm", value_name = "m|cm|mm|inch")]
+    pub unit: UnitWish,
+}
+
+/// Metres per unit of a mesh's coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct UnitWish(pub f64);
+
+fn unit(text: &str) -> Result<UnitWish, String> {
+    match text {
+        "m" => Ok(UnitWish(1.0)),
+        "cm" => Ok(UnitWish(0.01)),
+        "mm" => Ok(UnitWish(0.001)),
+        "inch" => Ok(UnitWish(0.0254)),
+        _ => Err("expected m, cm, mm or inch".to_owned()),
+    }
 }
 
 /// A vector path, or the widest.

@@ -17,7 +17,7 @@ pub fn check(wish: &CheckWish) -> Result<u8, Trouble> {
         &checked,
         &Choices {
             allow_unstable: true,
-            ..choices(&wish.scene)
+            ..choices(&wish.scene, None)
         },
     )?;
     let (mut run, plan) = (built.simulation, built.plan);
@@ -81,7 +81,7 @@ pub fn check(wish: &CheckWish) -> Result<u8, Trouble> {
         );
     }
     if !wish.scene.allow_unstable && !stable {
-        build(&checked, &choices(&wish.scene))?;
+        build(&checked, &choices(&wish.scene, None))?;
     }
     Ok(0)
 }

@@ -80,20 +80,40 @@ pub fn words(
 ) -> String {
     let report = run.report();
     let find = |name: &str| report.iter().find(|r| r.name == name);
-    let result = match (find("angle_of_repose"), run.released_at()) {
-        (Some(angle), Some(released)) if angle.value.is_finite() => format!(
-            "Angle of repose {:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
-            angle.value,
-            angle
-                .uncertainty
-                .map_or(String::new(), |u| format!(" ± {u:.1}")),
-            run.time() - released
-        ),
-        _ => format!(
-            "{} grains, {:.4} s of simulated time.",
-            run.grains(),
-            run.time()
-        ),
+    let give = |u: Option<f64>, digits: usize| {
+        u.map_or(String::new(), |u| format!(" ± {u:.digits$}"))
+    };
+    let result = if let Some(rate) = find("mass_rate") {
+        let theory = find("ratio_to_theory").map_or(String::new(), |ratio| {
+            format!(
+                ", {:.3}{} of theory for a full screw (a = 1)",
+                ratio.value,
+                give(ratio.uncertainty, 3)
+            )
+        });
+        let steady = match find("steady") {
+            Some(steady) if steady.value > 0.5 => "",
+            _ => "; the rate was not steady yet: run longer with --until",
+        };
+        format!(
+            "Mass rate {:.3}{} kg/s{theory}{steady}.",
+            rate.value,
+            give(rate.uncertainty, 3)
+        )
+    } else {
+        match (find("angle_of_repose"), run.released_at()) {
+            (Some(angle), Some(released)) if angle.value.is_finite() => format!(
+                "Angle of repose {:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
+                angle.value,
+                give(angle.uncertainty, 1),
+                run.time() - released
+            ),
+            _ => format!(
+                "{} grains, {:.4} s of simulated time.",
+                run.grains(),
+                run.time()
+            ),
+        }
     };
     let mut text = format!(
         "{result}\n{:.1} s of wall time, {:.1} million grain-steps/s on {} thread{}; results in {}",

@@ -8,6 +8,7 @@ mod clock;
 mod ending;
 mod figures;
 mod film;
+mod mesh;
 mod progress;
 mod rows;
 mod run;
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
     let done = match arguments.command {
         arguments::Command::Run(wish) => run::run(&wish),
         arguments::Command::Check(wish) => check::check(&wish),
+        arguments::Command::Mesh(wish) => mesh::mesh(&wish),
         arguments::Command::Scenes => shipped::list(),
         arguments::Command::Init { name } => shipped::init(&name),
     };

@@ -8,10 +8,11 @@ use crate::film::{self, Film};
 use crate::progress::Progress;
 use crate::rows::Rows;
 use crate::trouble::Trouble;
-use std::sync::Arc;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use tsubu::assemble::{Choices, Stop, build};
+use tsubu::assemble::{Choices, Stop, Watch, build};
 use tsubu::record::{FrameWriter, RunFolder, write_whole};
 use tsubu::scene::{Checked, Source};
 
@@ -30,12 +31,28 @@ pub fn read(wish: &SceneWish) -> Result<Checked, Trouble> {
     Ok(source.check()?)
 }
 
-/// The machine's side of a wish.
-pub fn choices(wish: &SceneWish) -> Choices {
+/// The machine's side of a wish. Grids of distances are kept beside the runs, so that the next one starts at once.
+pub fn choices(wish: &SceneWish, out: Option<&Path>) -> Choices {
+    let beside = out.and_then(Path::parent).unwrap_or(Path::new("out"));
+    let said: Mutex<(String, u32)> = Mutex::default();
+    let watch = move |wall: &str, share: f64| {
+        let quarter = (4.0 * share) as u32;
+        let Ok(mut said) = said.lock() else { return };
+        if said.0 != wall {
+            *said = (wall.to_owned(), 0);
+            tell!("building the grid of distances of `{wall}` …");
+        }
+        if quarter > said.1 {
+            said.1 = quarter;
+            tell!("  {:3} %", 25 * quarter);
+        }
+    };
     Choices {
         threads: wish.threads.map(usize::from),
         lanes: wish.lanes.0,
         allow_unstable: wish.allow_unstable,
+        grids: Some(beside.join("grids")),
+        watch: Some(Watch(Arc::new(watch))),
     }
 }
 
@@ -43,7 +60,7 @@ pub fn choices(wish: &SceneWish) -> Choices {
 pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     let start = Instant::now();
     let checked = read(&wish.scene)?;
-    let built = build(&checked, &choices(&wish.scene))?;
+    let built = build(&checked, &choices(&wish.scene, wish.out.as_deref()))?;
     let (mut run, plan) = (built.simulation, built.plan);
     let stem = wish
         .scene
