@@ -2,7 +2,7 @@
 
 use super::{Foot, Part, Query, Screw};
 use glam::DVec3;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_4, TAU};
 
 /// In how many steps the angle to a face is searched before it is refined.
 const STEPS: usize = 16;
@@ -28,6 +28,26 @@ impl Nearest {
             };
         }
     }
+}
+
+/// A zero of `f` between two places of different sign, given with their values: chords, with the
+/// value of an end that stays put halved (the Illinois rule), so that both ends move in.
+fn zero(f: impl Fn(f64) -> f64, low: (f64, f64), high: (f64, f64)) -> f64 {
+    let ((mut a, mut fa), (mut b, mut fb)) = (low, high);
+    for _ in 0..100 {
+        let c = b - fb * (b - a) / (fb - fa);
+        let fc = f(c);
+        if fc == 0.0 || (c - b).abs() <= 1e-16 * high.0.abs() {
+            return c;
+        }
+        if fc * fb < 0.0 {
+            (a, fa) = (b, fb);
+        } else {
+            fa *= 0.5;
+        }
+        (b, fb) = (c, fc);
+    }
+    b
 }
 
 impl Screw {
@@ -88,24 +108,17 @@ impl Screw {
             let flat = DVec3::new(steep * sin, -steep * cos, 1.0) * (side / steep.hypot(1.0));
             nearest.offer(apart, flat, part);
         };
-        let at = |k: usize| goal * k as f64 / STEPS as f64;
+        // Up to an eighth of a turn the slope rises all the way; beyond it may have several zeros.
+        let steps = if goal.abs() <= FRAC_PI_4 { 1 } else { STEPS };
+        let at = |k: usize| goal * k as f64 / steps as f64;
         offer(0.0);
         offer(goal);
-        for k in 0..STEPS {
+        for k in 0..steps {
             // Along the way from 0 to the goal the distance falls, then rises.
-            let (mut low, mut high) = (at(k), at(k + 1));
-            if slope(low) * goal > 0.0 || slope(high) * goal < 0.0 {
-                continue;
+            let (low, high) = ((at(k), slope(at(k))), (at(k + 1), slope(at(k + 1))));
+            if low.1 * goal < 0.0 && high.1 * goal > 0.0 {
+                offer(zero(slope, low, high));
             }
-            for _ in 0..52 {
-                let middle = 0.5 * (low + high);
-                if slope(middle) * goal < 0.0 {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            offer(0.5 * (low + high));
         }
     }
 
