@@ -16,7 +16,8 @@ use tsubu_measure::{
     Balance, Conveying, ConveyingOptions, Energy, Heap, HeapOptions, Loads, Slices, Structure,
 };
 use tsubu_model::{
-    ContactLaw, Dim, Domain, Gate, Motion, Observer, Plane, Space, Still, Surface, Vector,
+    ContactLaw, Course, Dim, Domain, Gate, Motion, Observer, Plane, Shift, Space, Span, Still,
+    Surface, Turn, Vector,
 };
 use tsubu_scene as scene;
 use tsubu_scene::{Axis, Checked, Removal, SceneError, Shape};

@@ -200,7 +200,7 @@ fn quotient(a: Measured, b: Measured) -> Measured {
 /// A reading with its uncertainty, if known and there is a value.
 fn reading(name: &'static str, measured: Measured, unit: &'static str) -> Reading {
     Reading {
-        name,
+        name: name.into(),
         value: measured.value,
         uncertainty: measured
             .uncertainty

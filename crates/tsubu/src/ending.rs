@@ -80,9 +80,8 @@ pub fn words(
 ) -> String {
     let report = run.report();
     let find = |name: &str| report.iter().find(|r| r.name == name);
-    let give = |u: Option<f64>, digits: usize| {
-        u.map_or(String::new(), |u| format!(" ± {u:.digits$}"))
-    };
+    let give =
+        |u: Option<f64>, digits: usize| u.map_or(String::new(), |u| format!(" ± {u:.digits$}"));
     let result = if let Some(rate) = find("mass_rate") {
         let theory = find("ratio_to_theory").map_or(String::new(), |ratio| {
             format!(
