@@ -178,7 +178,7 @@ pub trait Gate<D: Dim, S: SpinState>: Send {
 /// One measured value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// Stable name, as in `summary.json`; what belongs to a body begins with its name: `screw.torque_x`.
+    /// Stable name, as in `summary.json`; what belongs to a body ends with its name: `torque_x_on_screw`.
     pub name: Cow<'static, str>,
     /// The value.
     pub value: f64,
