@@ -20,7 +20,7 @@ const INNER: f64 = 0.1148;
 /// Thickness of every wall.
 const WALL: f64 = 0.010;
 /// Length of the inlet opening.
-const INLET: f64 = 0.318;
+const INLET: f64 = 318.0 * 1e-3;
 /// Where the tube ends.
 const OUTLET: f64 = 0.550;
 /// Where the sides of the trough end and the hopper begins.
