@@ -84,6 +84,8 @@ struct Query {
     z: f64,
     /// Number of the turn whose middle is nearest along the axis.
     turn: f64,
+    /// Unrolled angle of the point on that turn.
+    angle: f64,
     /// Height over the middle of that turn.
     height: f64,
     /// Whether the flight's angle and height range holds the point (whatever its radius).
@@ -210,6 +212,7 @@ impl Screw {
             phi,
             z,
             turn,
+            angle,
             height,
             covered,
         }

@@ -123,6 +123,7 @@ pub fn examine<D: Dim>(
         checks::gradient(&trial),
         checks::foot(&trial),
         checks::expected(&trial),
+        checks::drawing(&trial),
     ];
     Report::of(trial.points.len(), checks)
 }

@@ -182,6 +182,40 @@ fn a_number_that_is_none_at_a_centre_is_caught() {
 }
 
 #[test]
+fn a_shell_beside_the_surface_and_bounds_that_cut_it_are_caught() {
+    struct Misdrawn(Cuboid<Space>, bool);
+    impl Surface<Space> for Misdrawn {
+        fn lower_bound(&self, x: DVec3) -> f64 {
+            self.0.lower_bound(x)
+        }
+        fn hits(&self, x: &[DVec3], reach: &[f64], out: &mut HitBuffer<Space>) {
+            self.0.hits(x, reach, out);
+        }
+        fn outline(&self, low: DVec3, high: DVec3) -> Vec<[DVec3; 2]> {
+            self.0.outline(low, high)
+        }
+        fn bounds(&self) -> Option<[DVec3; 2]> {
+            let short = if self.1 { 0.0 } else { 0.1 };
+            self.0.bounds().map(|[low, high]| [low + short, high])
+        }
+        fn shell(&self) -> Option<tsubu_model::Shell> {
+            let mut shell = self.0.shell()?;
+            if self.1 {
+                shell.vertices[3].x += 1e-3;
+            }
+            Some(shell)
+        }
+    }
+    let region = [DVec3::splat(-1.0), DVec3::splat(2.0)];
+    let block = Cuboid::new(DVec3::ZERO, DVec3::ONE).unwrap();
+    for which in [false, true] {
+        let report = examine::<Space>(&Misdrawn(block, which), region, &Options::default());
+        assert!(report.fails(Check::Drawing), "{report}");
+        assert_eq!(report.breaches.len(), 1);
+    }
+}
+
+#[test]
 fn points_of_a_batch_that_are_mixed_up_are_caught() {
     struct Swapped(Cavity<Cuboid<Space>>);
     impl Surface<Space> for Swapped {

@@ -3,6 +3,8 @@
 //! From paper A: screw of 205 mm on a shaft of 55 mm, pitch 150 mm, 4.5 pitches, casing of 229.6 mm,
 //! inlet opening of 318 mm. Read into it: flight of 6 mm, walls of 10 mm, a trough under the inlet with
 //! vertical sides up to 160 mm, a tube from there to 550 mm, the screw free beyond it, a hopper up to 700 mm.
+//! The flight is cut at right angles to its sweep, half a thickness before each end of the shaft: its
+//! middle runs from 6 to 669 mm, 4.42 turns, and would pass x = 0 in the direction +y.
 //! Each body is made of closed shells; those of the casing overlap or abut.
 
 use glam::DVec3;
@@ -18,7 +20,7 @@ const INNER: f64 = 0.1148;
 /// Thickness of every wall.
 const WALL: f64 = 0.010;
 /// Length of the inlet opening.
-const INLET: f64 = 0.318;
+const INLET: f64 = 318.0 * 1e-3;
 /// Where the tube ends.
 const OUTLET: f64 = 0.550;
 /// Where the sides of the trough end and the hopper begins.

@@ -152,6 +152,27 @@ mod tests {
     }
 
     #[test]
+    fn the_triangles_of_the_screw_lie_within_the_chord_that_is_printed() {
+        let screw = feeder::screw().unwrap();
+        let bytes = stl::bytes("screw", &[screw.mesh(feeder::CHORD)]);
+        let mut farthest = 0.0f64;
+        for t in stl::triangles(&bytes).unwrap() {
+            let [a, b, c] = t.map(|x| glam::DVec3::from(x.map(f64::from)) * 1e-3);
+            for x in [
+                a,
+                (a + b) / 2.0,
+                (b + c) / 2.0,
+                (c + a) / 2.0,
+                (a + b + c) / 3.0,
+            ] {
+                farthest = farthest.max(tsubu_sdf::Solid::distance(&screw, x).abs());
+            }
+        }
+        println!("farthest {farthest:.3e} m");
+        assert!(farthest < feeder::CHORD, "{farthest} m");
+    }
+
+    #[test]
     fn the_turn_that_is_printed_carries_a_plug_towards_the_outlet() {
         use tsubu_model::{Motion, Span, Surface, Turn};
         let screw = feeder::screw().unwrap();

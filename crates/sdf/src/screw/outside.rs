@@ -4,6 +4,10 @@ use super::{Foot, Part, Query, Screw};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+/// Feet on a face that are past its end by less than this angle count as on it: rather a hit twice
+/// than none.
+const ROUNDING: f64 = 1e-12;
+
 impl Screw {
     /// Every foot that a point outside the body is on the outer side of.
     pub(super) fn feet_outside(&self, q: &Query, mut see: impl FnMut(Foot)) {
@@ -74,7 +78,7 @@ impl Screw {
             let height = (side * (q.z - self.rise * angle) - half).max(0.0);
             if let Some(psi) = self.psi(q.rho, height) {
                 let theta = angle + side * psi;
-                if first <= theta && theta <= last {
+                if first - ROUNDING <= theta && theta <= last + ROUNDING {
                     see(self.face_foot(q.rho, psi, height, side, part));
                 }
             }
@@ -174,7 +178,8 @@ impl Screw {
         } else {
             (self.turn[1], 1.0)
         };
-        let (sin, cos) = (theta - q.phi).sin_cos();
+        // From the same unrolled angle that decides about the rim, so that no gap opens between them.
+        let (sin, cos) = (theta - q.angle).sin_cos();
         if q.rho * cos <= self.size.shaft {
             return;
         }
@@ -183,7 +188,8 @@ impl Screw {
         let half = 0.5 * self.size.thickness;
         let beside = over - over.clamp(-half, half);
         // Half the slope of the squared distance along the sweep: it must not fall into the flight.
-        if outward * (q.rho * r * sin - self.rise * beside) > 0.0 {
+        let falls = outward * (q.rho * r * sin - self.rise * beside) > 0.0;
+        if falls || (q.covered && beside == 0.0) {
             return;
         }
         let apart = DVec3::new(q.rho - r * cos, -r * sin, beside);

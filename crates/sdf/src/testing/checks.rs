@@ -224,3 +224,41 @@ pub(super) fn expected<D: Dim>(trial: &Trial<D>) -> Worst {
     }
     worst
 }
+
+pub(super) fn drawing<D: Dim>(trial: &Trial<D>) -> Worst {
+    let mut worst = Worst::of(Check::Drawing);
+    let surface = trial.surface;
+    if let Some([low, high]) = surface.bounds() {
+        for &x in &trial.points {
+            let Some(hit) = trial.nearest(x) else {
+                continue;
+            };
+            let foot = D::to_space(x - hit.normal * hit.distance);
+            let beyond = (low - foot).max(foot - high).max_element();
+            worst.see(beyond, 4.0 * trial.slack, || {
+                format!("{foot} of the surface is {beyond} m beyond the bounds {low} to {high}")
+            });
+        }
+    }
+    for corner in surface.shell().unwrap_or_default().vertices {
+        let flat = D::from_space(corner);
+        // A ball in the plane is drawn as a ball: only its corners in the plane can be asked.
+        if D::to_space(flat) != corner {
+            continue;
+        }
+        if let Some(distance) = trial.distance(flat) {
+            // A pole of a cap or the middle of an end is on the surface, too.
+            worst.see(distance.abs(), 4.0 * trial.slack, || {
+                format!("the corner {corner} of the shell is {distance} m off the surface")
+            });
+        }
+    }
+    let (low, high) = trial.middle_box();
+    for end in surface.outline(low, high).into_iter().flatten() {
+        let beyond = (low - end).max(end - high).max_element();
+        worst.see(beyond, 1e-12 * trial.size, || {
+            format!("{end} of the outline is {beyond} m beyond its box {low} to {high}")
+        });
+    }
+    worst
+}

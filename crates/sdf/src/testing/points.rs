@@ -1,6 +1,7 @@
 //! The points that the suite tries, and the questions that it asks there.
 
 use super::Options;
+use glam::DVec3;
 use tsubu_model::{Dim, Hit, HitBuffer, Surface, Vector};
 
 /// A surface on trial.
@@ -63,6 +64,13 @@ impl<'a, D: Dim> Trial<'a, D> {
             }
         }
         D::V::from_axes(|a| if a == 0 { 1.0 } else { 0.0 })
+    }
+
+    /// A box within the region, so that an outline has to be cut.
+    pub(super) fn middle_box(&self) -> (DVec3, DVec3) {
+        let (low, high) = (D::to_space(self.low), D::to_space(self.high));
+        let size = high - low;
+        (low + 0.3 * size, high - 0.3 * size)
     }
 
     /// The hits of one point.

@@ -25,6 +25,8 @@ pub enum Check {
     Foot,
     /// Concave places have as many hits as stated.
     Expected,
+    /// Bounds hold the surface, corners of the shell lie on it, the outline stays in its box.
+    Drawing,
 }
 
 impl Check {
@@ -41,6 +43,7 @@ impl Check {
             Self::Gradient => "the normal is the gradient of the distance",
             Self::Foot => "x − normal·distance lies on the surface",
             Self::Expected => "as many hits as stated",
+            Self::Drawing => "bounds, shell and outline belong to the surface",
         }
     }
 }
