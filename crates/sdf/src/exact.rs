@@ -32,6 +32,8 @@ pub struct ExactMesh {
     faces: Vec<u32>,
     /// Normals tell the inside; else winding numbers do.
     clean: bool,
+    /// No hole had to be closed.
+    whole: bool,
     /// Half the thickness of a two-sided wall; `None` for a body.
     half_wall: Option<f64>,
     bounds: [DVec3; 2],
@@ -87,6 +89,7 @@ impl ExactMesh {
             coarse: Box::new(coarse),
             faces: smooth_faces(&mesh).0,
             clean: is_clean(&pieces, &edges),
+            whole: pieces.iter().all(|piece| piece.closed),
             half_wall,
             bounds: [low - margin, high + margin],
             mesh,
@@ -100,19 +103,32 @@ impl ExactMesh {
 
     /// The single closest place within `reach` of x: distance in m, outward unit normal, feature.
     pub fn closest(&self, x: DVec3, reach: f64) -> Option<(f64, DVec3, u32)> {
+        self.closest_on(x, reach, None)
+    }
+
+    /// As [`ExactMesh::closest`], with the side if it is known.
+    pub(crate) fn closest_on(
+        &self,
+        x: DVec3,
+        reach: f64,
+        inside: Option<bool>,
+    ) -> Option<(f64, DVec3, u32)> {
         let half = self.half_wall.unwrap_or(0.0);
         let found = self.tree.closest(x, reach + half)?;
-        let inside = self.half_wall.is_none() && self.is_inside(x, found);
+        let inside = self.half_wall.is_none() && inside.unwrap_or_else(|| self.is_inside(x, found));
         let (distance, normal) = self.seen(x, found.point, found.triangle, inside);
         Some((distance - half, normal, self.faces[found.triangle as usize]))
     }
 
     fn is_inside(&self, x: DVec3, found: Closest) -> bool {
         if self.clean {
-            found.behind
-        } else {
-            self.winding.inside(x)
+            return found.behind;
         }
+        // A mesh with holes has faces in the coarse grid that the tree has not: then only the number tells.
+        let told = self
+            .whole
+            .then(|| self.coarse.side(x, (found.point - x).length()));
+        told.flatten().unwrap_or_else(|| self.winding.inside(x))
     }
 
     /// Signed distance from the mesh and the outward direction.
@@ -166,7 +182,7 @@ impl ExactMesh {
             {
                 continue;
             }
-            let mut feature = self.faces[candidate.triangle as usize];
+            let mut feature = self.feature(candidate, scratch);
             // Both sides of a bend of one smooth face are two contacts and need two names.
             if out.hits[first..].iter().any(|hit| hit.feature == feature) {
                 feature = candidate.triangle;
@@ -181,6 +197,19 @@ impl ExactMesh {
                 feature,
             });
         }
+    }
+
+    /// The smallest name among the faces that meet at the point, whichever of them rounding puts first.
+    fn feature(&self, candidate: &Candidate, all: &[Candidate]) -> u32 {
+        let meets = |c: &&Candidate| {
+            c.distance <= candidate.distance * (1.0 + 1e-9)
+                && (c.point - candidate.point).length() <= 1e-9 * candidate.distance
+        };
+        let own = self.faces[candidate.triangle as usize];
+        all.iter()
+            .filter(meets)
+            .map(|c| self.faces[c.triangle as usize])
+            .fold(own, u32::min)
     }
 
     /// True if no closer triangle shares the side or corner on which the point lies.
@@ -287,6 +316,7 @@ mod tests {
     use super::*;
     use crate::mesh::samples::{self, Random};
     use proptest::prelude::*;
+    use std::sync::OnceLock;
 
     fn hits(surface: &ExactMesh, x: DVec3, reach: f64) -> Vec<Hit<Space>> {
         let mut out = HitBuffer::default();
@@ -370,6 +400,33 @@ mod tests {
     }
 
     #[test]
+    fn the_side_is_right_where_shells_overlap_and_where_holes_are() {
+        let step = step();
+        for mesh in [step.clone(), samples::with_holes(step.clone(), 0.02)] {
+            let surface = ExactMesh::body(&mesh).unwrap();
+            assert!(!surface.clean);
+            let plate = |x: DVec3| {
+                (x - DVec3::new(0.0, 0.0, -0.5))
+                    .abs()
+                    .cmplt(DVec3::new(2.0, 2.0, 0.5))
+                    .all()
+            };
+            let block = |x: DVec3| {
+                (x - DVec3::new(-1.0, 0.0, 0.5))
+                    .abs()
+                    .cmplt(DVec3::new(1.0, 2.0, 1.0))
+                    .all()
+            };
+            let mut random = Random::new(9);
+            for _ in 0..20_000 {
+                let x = 2.5 * random.vector();
+                let (distance, ..) = surface.closest(x, f64::MAX).unwrap();
+                assert_eq!(distance < 0.0, plate(x) || block(x), "{x} {distance}");
+            }
+        }
+    }
+
+    #[test]
     fn the_back_of_a_thin_plate_is_not_touched_from_the_front() {
         let plate = ExactMesh::body(&samples::cuboid(DVec3::new(2.0, 2.0, 0.1), 4)).unwrap();
         assert_eq!(hits(&plate, DVec3::new(0.1, 0.2, 0.3), 0.5).len(), 1);
@@ -399,15 +456,54 @@ mod tests {
         }
     }
 
+    #[test]
+    fn an_edge_has_one_name_all_along() {
+        let cube = ExactMesh::body(&samples::cuboid(DVec3::splat(2.0), 7)).unwrap();
+        let mut names: Vec<u32> = (0..500)
+            .map(|k| hits(&cube, DVec3::new(1.2, -0.99 + 0.00396 * k as f64, 1.3), 0.5)[0].feature)
+            .collect();
+        names.dedup();
+        assert_eq!(names.len(), 1, "{names:?}");
+    }
+
+    /// Made once: it is asked hundreds of times.
+    fn cube() -> &'static ExactMesh {
+        static CUBE: OnceLock<ExactMesh> = OnceLock::new();
+        CUBE.get_or_init(|| ExactMesh::body(&samples::cuboid(DVec3::splat(2.0), 2)).unwrap())
+    }
+
     proptest! {
+        #[test]
+        fn any_triangles_give_finite_hits_or_an_error(
+            points in prop::collection::vec(prop::array::uniform3(-1.0..1.0f64), 3..12), scale in -40..7i32, wall in any::<bool>(),
+        ) {
+            let scale = 10f64.powi(scale);
+            let mesh = Mesh {
+                triangles: (0..points.len() as u32 - 2).map(|i| [i, i + 1, i + 2]).collect(),
+                vertices: points.iter().map(|&p| DVec3::from(p) * scale).collect(),
+                parts: Vec::new(),
+            };
+            prop_assert!(!crate::mesh::Report::of(&mesh).to_string().is_empty());
+            let made = if wall { ExactMesh::wall(&mesh, 0.0) } else { ExactMesh::body(&mesh) };
+            if let Ok(surface) = made {
+                for &x in &[DVec3::ZERO, mesh.vertices[0], DVec3::ONE * scale, DVec3::NAN, DVec3::INFINITY] {
+                    let bound = surface.lower_bound(x);
+                    prop_assert!(bound.is_finite() || !x.is_finite());
+                    for hit in hits(&surface, x, scale) {
+                        prop_assert!(hit.is_finite() && (hit.normal.length() - 1.0).abs() < 1e-9, "{:?}", hit);
+                    }
+                }
+            }
+        }
+
         #[test]
         fn the_nearest_hit_is_the_distance_and_the_bound_is_below(x in prop::array::uniform3(-2.5..2.5f64), reach in 0.05..1.0f64) {
             let x = DVec3::from(x);
-            let cube = ExactMesh::body(&samples::cuboid(DVec3::splat(2.0), 2)).unwrap();
             let out = (x.abs() - DVec3::ONE).max(DVec3::ZERO).length();
             let distance = if out > 0.0 { out } else { (x.abs() - DVec3::ONE).max_element() };
+            let cube = cube();
             prop_assert!(cube.lower_bound(x) <= distance + 1e-12);
-            let found = hits(&cube, x, reach);
+            let found = hits(cube, x, reach);
             prop_assert_eq!(found.is_empty(), distance >= reach);
             for hit in &found {
                 prop_assert!(hit.is_finite() && (hit.normal.length() - 1.0).abs() < 1e-12);
