@@ -1,6 +1,7 @@
 //! One triangle: its closest point, the feature it lies on, its solid angle, what crosses it.
 
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// Where on a triangle a closest point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,16 +48,58 @@ pub(crate) fn closest([a, b, c]: [DVec3; 3], x: DVec3) -> (DVec3, Place) {
     (a + ab * (vb / sum) + ac * (vc / sum), Place::Face)
 }
 
-/// The solid angle of the triangle seen from x, in sr; positive from behind (Van Oosterom & Strackee 1983).
+/// A sum of solid angles, kept as a product of complex numbers: one arctangent for all triangles.
 ///
-/// tan(Ω/2) = a·(b × c) / (abc + (a·b)c + (b·c)a + (c·a)b), vectors from x to the corners.
-pub(crate) fn solid_angle(corners: [DVec3; 3], x: DVec3) -> f64 {
-    let [a, b, c] = corners.map(|v| v - x);
-    let (la, lb, lc) = (a.length(), b.length(), c.length());
-    let above = a.dot(b.cross(c));
-    let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    // On the triangle itself both vanish, and atan2(0, 0) = 0: the mean of both sides.
-    2.0 * above.atan2(below)
+/// tan(Ω/2) = a·(b × c) / (abc + (a·b)c + (b·c)a + (c·a)b), vectors from x to the corners; Ω in sr,
+/// positive seen from behind. Source: VanOosterom1983.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SolidAngle {
+    /// cos and sin of half the sum, up to whole turns.
+    cos: f64,
+    sin: f64,
+    /// Whole turns of half the sum.
+    turns: f64,
+}
+
+impl SolidAngle {
+    pub fn none() -> Self {
+        Self {
+            cos: 1.0,
+            sin: 0.0,
+            turns: 0.0,
+        }
+    }
+
+    #[inline]
+    pub fn add(&mut self, corners: [DVec3; 3], x: DVec3) {
+        let [a, b, c] = corners.map(|v| v - x);
+        let (la, lb, lc) = (a.length(), b.length(), c.length());
+        let sin = a.dot(b.cross(c));
+        let cos = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+        let size = cos.abs() + sin.abs();
+        // On the triangle itself both vanish: no angle, the mean of both sides.
+        if size > 0.0 {
+            let (cos, sin) = (cos / size, sin / size);
+            let product = (
+                self.cos * cos - self.sin * sin,
+                self.cos * sin + self.sin * cos,
+            );
+            // Two angles of one sign whose sum has the other have passed ±π.
+            if self.sin >= 0.0 && sin >= 0.0 && product.1 < 0.0 {
+                self.turns += 1.0;
+            } else if self.sin < 0.0 && sin < 0.0 && product.1 >= 0.0 {
+                self.turns -= 1.0;
+            }
+            // The sum of both is at least a half for a unit vector, so nothing shrinks away.
+            let size = product.0.abs() + product.1.abs();
+            (self.cos, self.sin) = (product.0 / size, product.1 / size);
+        }
+    }
+
+    /// The sum in sr.
+    pub fn total(&self) -> f64 {
+        2.0 * (self.sin.atan2(self.cos) + 2.0 * PI * self.turns)
+    }
 }
 
 /// How far along from `from` the direction `along` meets the triangle, as a multiple of `along`
@@ -79,7 +122,6 @@ pub(crate) fn crossing([a, b, c]: [DVec3; 3], from: DVec3, along: DVec3) -> Opti
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use std::f64::consts::PI;
 
     fn vector() -> impl Strategy<Value = DVec3> {
         prop::array::uniform3(-1.0..1.0f64).prop_map(DVec3::from)
@@ -125,7 +167,27 @@ mod tests {
     #[test]
     fn an_octant_fills_an_eighth_of_the_sphere() {
         let octant = [DVec3::X, DVec3::Y, DVec3::Z];
-        assert!((solid_angle(octant, DVec3::ZERO) - PI / 2.0).abs() < 1e-14);
-        assert!(solid_angle(octant, DVec3::ONE) < 0.0);
+        assert!((sum(&[octant], DVec3::ZERO) - PI / 2.0).abs() < 1e-14);
+        assert!(sum(&[octant], DVec3::ONE) < 0.0);
+    }
+
+    fn sum(triangles: &[[DVec3; 3]], x: DVec3) -> f64 {
+        let mut sum = SolidAngle::none();
+        triangles.iter().for_each(|&t| sum.add(t, x));
+        sum.total()
+    }
+
+    proptest! {
+        #[test]
+        fn the_product_is_the_sum_however_many_turns(points in prop::collection::vec(prop::array::uniform3(-1.0..1.0f64), 3..60), twice in any::<bool>()) {
+            let mut triangles: Vec<[DVec3; 3]> = points.windows(3).map(|w| [0, 1, 2].map(|k| DVec3::from(w[k]))).collect();
+            if twice {
+                // All the same way round, so that turns gather.
+                let first = triangles[0];
+                triangles = vec![first; 20];
+            }
+            let single: f64 = triangles.iter().map(|&t| sum(&[t], DVec3::splat(0.01))).sum();
+            prop_assert!((sum(&triangles, DVec3::splat(0.01)) - single).abs() < 1e-9);
+        }
     }
 }

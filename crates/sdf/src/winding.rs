@@ -1,7 +1,7 @@
 //! Inside or outside of a mesh that need not be closed: the generalised winding number.
 
 use crate::mesh::{Mesh, double_area};
-use crate::triangle::solid_angle;
+use crate::triangle::SolidAngle;
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
@@ -58,7 +58,7 @@ impl Winding {
 
     /// w(x) with far clusters approximated.
     pub fn at(&self, x: DVec3) -> f64 {
-        let mut sum = 0.0;
+        let (mut far, mut near_by) = (0.0, SolidAngle::none());
         // Halving keeps the tree less than 32 deep, and one node waits per level.
         let mut waiting = [0u32; 64];
         let mut left = usize::from(!self.nodes.is_empty());
@@ -73,12 +73,12 @@ impl Winding {
                 let over = 1.0 / distance2.sqrt();
                 let over3 = over * over * over;
                 let trace = node.spread.x_axis.x + node.spread.y_axis.y + node.spread.z_axis.z;
-                sum += over3
+                far += over3
                     * (node.dipole.dot(to) + trace - 3.0 * to.dot(node.spread * to) * over * over);
             } else if node.count > 0 {
                 let first = node.at as usize;
                 for &triangle in &self.corners[first..first + node.count as usize] {
-                    sum += solid_angle(triangle, x);
+                    near_by.add(triangle, x);
                 }
             } else {
                 waiting[left] = node.at;
@@ -86,13 +86,14 @@ impl Winding {
                 left += 2;
             }
         }
-        sum / (4.0 * PI)
+        (far + near_by.total()) / (4.0 * PI)
     }
 
     /// w(x) as the sum over every triangle.
     pub fn exact(&self, x: DVec3) -> f64 {
-        let sum: f64 = self.corners.iter().map(|&t| solid_angle(t, x)).sum();
-        sum / (4.0 * PI)
+        let mut sum = SolidAngle::none();
+        self.corners.iter().for_each(|&t| sum.add(t, x));
+        sum.total() / (4.0 * PI)
     }
 
     /// True where |w| ≥ ½.

@@ -9,6 +9,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Share of the progress that the distances in the band take.
 const BAND_SHARE: f64 = 0.8;
+/// Nodes in a row that are asked together whether the surface is near.
+const BLOCK: usize = 8;
 
 impl DistanceGrid {
     /// Builds the grid around a mesh, on the threads of the current rayon pool; the result has the same
@@ -108,15 +110,26 @@ fn distances(nodes: &Nodes, tree: &Tree, band: f64, progress: &(dyn Fn(f64) + Sy
         .par_chunks_mut(nx)
         .enumerate()
         .for_each(|(row, values)| {
-            let mut most = band;
-            for (i, value) in values.iter_mut().enumerate() {
-                let x = nodes.place([i, row % ny, row / ny]);
-                let found = tree.closest(x, most).map(|c| (c.point - x).length());
-                if let Some(distance) = found {
-                    *value = distance as f32;
+            for (block, values) in values.chunks_mut(BLOCK).enumerate() {
+                let node = |i: usize| nodes.place([block * BLOCK + i, row % ny, row / ny]);
+                // Most of the grid is far from the surface: one question settles a whole block.
+                let half = 0.5 * (values.len() - 1) as f64 * nodes.cell;
+                let middle = 0.5 * (node(0) + node(values.len() - 1));
+                let mut most = match tree.closest(middle, (band + half) * (1.0 + 1e-9)) {
+                    None => continue,
+                    Some(found) => {
+                        band.min(((found.point - middle).length() + half) * (1.0 + 1e-9))
+                    }
+                };
+                for (i, value) in values.iter_mut().enumerate() {
+                    let x = node(i);
+                    let found = tree.closest(x, most).map(|c| (c.point - x).length());
+                    if let Some(distance) = found {
+                        *value = distance as f32;
+                    }
+                    // The next node is one cell on, so the surface is at most that much further away.
+                    most = found.map_or(band, |d| band.min((d + nodes.cell) * (1.0 + 1e-9)));
                 }
-                // The next node is one cell on, so the surface is at most that much further away.
-                most = found.map_or(band, |d| band.min((d + nodes.cell) * (1.0 + 1e-9)));
             }
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             if done.is_multiple_of(each) {

@@ -216,6 +216,7 @@ mod tests {
     use super::*;
     use crate::mesh::samples;
     use proptest::prelude::*;
+    use std::sync::OnceLock;
 
     fn grid(thickness: Option<f64>, exact_edges: bool) -> DistanceGrid {
         let options = GridOptions {
@@ -290,10 +291,16 @@ mod tests {
         bytes
     }
 
+    /// Made once: it is damaged hundreds of times.
+    fn stored() -> Vec<u8> {
+        static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
+        BYTES.get_or_init(|| grid(None, false).to_bytes()).clone()
+    }
+
     proptest! {
         #[test]
         fn a_flipped_bit_or_a_cut_is_noticed(at in any::<prop::sample::Index>(), bit in 0u8..8, cut in any::<prop::sample::Index>()) {
-            let bytes = grid(None, false).to_bytes();
+            let bytes = stored();
             let mut flipped = bytes.clone();
             flipped[at.index(bytes.len())] ^= 1 << bit;
             prop_assert!(DistanceGrid::from_bytes(&flipped).is_err());
@@ -302,7 +309,7 @@ mod tests {
 
         #[test]
         fn forged_fields_give_an_answer(at in 8usize..160, value in any::<u8>()) {
-            let mut bytes = grid(None, false).to_bytes();
+            let mut bytes = stored();
             bytes[at] = value;
             if let Ok(grid) = DistanceGrid::from_bytes(&summed(bytes)) {
                 // Whatever was accepted can be asked.

@@ -7,6 +7,8 @@ use tsubu_model::{Hit, HitBuffer, Shell, Space, Surface};
 
 /// Where the gradient is shorter than this the interpolant has a ridge there, and the normal is arbitrary.
 const FLAT: f64 = 1e-9;
+/// Half the diagonal of a cell, in cells: the most that an interpolated distance may be off.
+const DIAGONAL: f64 = 0.866_025_403_784_438_6;
 
 /// A point's cell: the corners' values and where in the cell it lies, 0 to 1.
 struct Cell {
@@ -85,6 +87,35 @@ impl DistanceGrid {
         4 * self.values.len() as u64
     }
 
+    /// Whether x, whose distance from the closed surface is `distance`, is inside, if a corner of its cell tells.
+    ///
+    /// The balls around x and around a corner that reach to the surface hold none of it. Where they
+    /// meet, the line between is free of the surface and both are on one side.
+    pub(crate) fn side(&self, x: DVec3, distance: f64) -> Option<bool> {
+        let cell = self.cell_of(x)?;
+        // Beyond the band a value is a bound, and the band itself is the free way.
+        let most = self.options.band;
+        let slack = 1e-6 * self.nodes.cell;
+        (0..8).find_map(|k| {
+            let corner = DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64);
+            let apart = (corner - cell.at).length() * self.nodes.cell;
+            let value = cell.corners[k];
+            (distance + value.abs().min(most) > apart + slack).then_some(value < 0.0)
+        })
+    }
+
+    /// The unit vector along a slope.
+    #[inline]
+    fn direction(&self, slope: DVec3) -> DVec3 {
+        let length = slope.length();
+        // In the middle of a wall every way out is as long.
+        if length > FLAT * self.nodes.cell {
+            slope / length
+        } else {
+            DVec3::Z
+        }
+    }
+
     #[inline]
     fn cell_of(&self, x: DVec3) -> Option<Cell> {
         let nodes = &self.nodes;
@@ -121,18 +152,22 @@ impl DistanceGrid {
     /// Distance and normal for a grain within reach; the mesh itself is asked if that is wanted.
     #[inline]
     fn touch(&self, x: DVec3, reach: f64) -> Option<(f64, DVec3)> {
-        let (value, normal) = self.distance_and_normal(x)?;
-        if let Some(exact) = &self.exact {
-            if value >= reach + self.nodes.cell {
-                return None;
-            }
-            if let Some((distance, normal, _)) = exact.closest(x, reach) {
-                return (distance < reach).then_some((distance, normal));
-            }
-            // Deeper than the reach: the grid knows the way out.
-            return (value < 0.0).then_some((value, normal));
+        let cell = self.cell_of(x)?;
+        let (value, slope) = cell.value_and_slope();
+        let Some(exact) = &self.exact else {
+            return (value < reach).then(|| (value, self.direction(slope)));
+        };
+        // The interpolant is off by half a cell's diagonal at most, so what is further is not touched.
+        if value >= reach + DIAGONAL * self.nodes.cell {
+            return None;
         }
-        (value < reach).then_some((value, normal))
+        // Where the interpolant leaves no doubt about the side, the mesh need not find it out.
+        let sure = value.abs() > (cell.doubt() + 1e-3) * self.nodes.cell;
+        match exact.closest_on(x, reach, sure.then_some(value < 0.0)) {
+            Some((distance, normal, _)) => (distance < reach).then_some((distance, normal)),
+            // Deeper than the reach: the grid knows the way out.
+            None => (value < 0.0).then(|| (value, self.direction(slope))),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::edges::{Edges, Groups, Side};
 use super::{Mesh, volume_of};
-use crate::triangle::solid_angle;
+use crate::triangle::SolidAngle;
 use crate::winding::Winding;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -74,8 +74,9 @@ impl Mesh {
 
     /// The winding number of all triangles but these.
     fn winding_of_rest(&self, all: &Winding, piece: &[usize], x: DVec3) -> f64 {
-        let own: f64 = piece.iter().map(|&t| solid_angle(self.corners(t), x)).sum();
-        all.at(x) - own / (4.0 * PI)
+        let mut own = SolidAngle::none();
+        piece.iter().for_each(|&t| own.add(self.corners(t), x));
+        all.at(x) - own.total() / (4.0 * PI)
     }
 
     fn agree(&mut self, edges: &Edges) {
