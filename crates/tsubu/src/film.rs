@@ -211,7 +211,15 @@ impl Film {
             faces: &faces,
         };
         let time = match zero {
-            Some(zero) if shot.time >= zero => format!("{:.2} s after release", shot.time - zero),
+            Some(zero) if shot.time >= zero => format!(
+                "{:.2} s after {}",
+                shot.time - zero,
+                if cut.is_some() {
+                    "the start"
+                } else {
+                    "release"
+                }
+            ),
             Some(_) => "settling".to_owned(),
             None => format!("{:.4} s", shot.time),
         };
@@ -243,6 +251,14 @@ impl Film {
                 let skip = values.len() / 500;
                 low[axis] = low[axis].min(f64::from(values[skip]));
                 high[axis] = high[axis].max(f64::from(values[values.len() - 1 - skip]));
+            }
+        }
+        // A machine that moves is shown whole.
+        let moving = shots.iter().flat_map(|s| &s.machines).filter(|m| m.moves);
+        for machine in moving {
+            for &x in machine.shell.iter().flat_map(|s| &s.vertices) {
+                let x = machine.pose.to_world(x);
+                (low, high) = (low.min(x), high.max(x));
             }
         }
         let room = DVec3::splat(1.2 * f64::from(self.radius));

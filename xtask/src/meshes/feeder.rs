@@ -2,7 +2,7 @@
 //!
 //! From paper A: screw of 205 mm on a shaft of 55 mm, pitch 150 mm, 4.5 pitches, casing of 229.6 mm,
 //! inlet opening of 318 mm. Read into it: flight of 6 mm, walls of 10 mm, a trough under the inlet with
-//! vertical sides up to 160 mm, a tube from there to 550 mm, the screw free beyond it, a hopper up to 700 mm.
+//! vertical sides up to 160 mm, a tube from there to 550 mm, the screw free beyond it, a hopper up to 1 m.
 //! The flight is cut at right angles to its sweep, half a thickness before each end of the shaft: its
 //! middle runs from 6 to 669 mm, 4.42 turns, and would pass x = 0 in the direction +y.
 //! Each body is made of closed shells; those of the casing overlap or abut.
@@ -26,7 +26,7 @@ const OUTLET: f64 = 0.550;
 /// Where the sides of the trough end and the hopper begins.
 const SIDES: f64 = 0.160;
 /// Top of the hopper.
-const TOP: f64 = 0.700;
+const TOP: f64 = 1.0;
 
 /// The screw, from x = 0 to 675 mm along the x axis, right-handed.
 pub fn screw() -> Result<Screw, Misshapen> {
@@ -98,7 +98,7 @@ pub fn hopper() -> Result<Vec<Shell>, Misshapen> {
 
 /// The region to fill: the inside of hopper and upper trough, above the screw.
 pub fn fill() -> Result<Vec<Shell>, Misshapen> {
-    Ok(vec![block([0.006, -0.109, 0.110], [0.312, 0.109, 0.690])?])
+    Ok(vec![block([0.006, -0.109, 0.110], [0.312, 0.109, 0.990])?])
 }
 
 fn block(low: [f64; 3], high: [f64; 3]) -> Result<Shell, Misshapen> {

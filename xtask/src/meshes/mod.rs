@@ -111,8 +111,8 @@ mod tests {
         let expected = [
             PI * 27.5 * 27.5 * 675.0 + flight,
             trough + ring * 232.0 + end + over,
-            540.0 * 10.0 * 2.0 * (338.0 + 249.6),
-            306.0 * 218.0 * 580.0,
+            840.0 * 10.0 * 2.0 * (338.0 + 249.6),
+            306.0 * 218.0 * 880.0,
         ];
         for ((name, shells), expected) in files().unwrap().into_iter().zip(expected) {
             // Each shell by itself first: a gap must not be mended by a neighbour's edge.
