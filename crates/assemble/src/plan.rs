@@ -1,9 +1,12 @@
 //! What a scene models and what not, and how far its step is from each limit.
 
 use crate::constants::Constants;
+use std::f64::consts::PI;
 use tsubu_integrate::{Limit, Packing};
 use tsubu_model::{ContactLaw, Kind, Space, Still};
-use tsubu_scene::{Axis, Checked, End, Initial, Scene, SceneError};
+use tsubu_scene::{
+    Axis, Begin, Checked, Course, End, Fate, Initial, MeshSurface, Motion, Scene, SceneError, Shape,
+};
 
 /// One limit of the step.
 #[derive(Clone, Debug, PartialEq)]
@@ -217,10 +220,28 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
             x.map_or(none.to_owned(), |x| format!("{name} {x}"))
         };
         lines.push(format!(
-            "wall `{}`: {}, {}",
+            "wall `{}`: {}, {}, {}{}",
             wall.name,
+            shape(&wall.shape),
             part(wall.restitution, "restitution", "elastic"),
-            part(wall.friction, "kinetic friction", "smooth")
+            part(wall.friction, "kinetic friction", "smooth"),
+            wall.motion.as_ref().map_or(String::new(), motion),
+        ));
+    }
+    for outlet in &scene.outlets {
+        let then = match outlet.then {
+            Fate::Delete => "go",
+            Fate::Recycle(_) => "come back at a random place of its box",
+        };
+        lines.push(format!(
+            "outlet `{}`: grains that reach it are counted and {then}",
+            outlet.name
+        ));
+    }
+    for inlet in &scene.inlets {
+        lines.push(format!(
+            "inlet `{}`: kept at a solid fraction of {}, seed {}",
+            inlet.name, inlet.solid_fraction, inlet.seed
         ));
     }
     for (name, axis) in [
@@ -240,6 +261,44 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
         lines.push(format!("start: random places, seed {}", fill.seed));
     }
     lines
+}
+
+fn shape(shape: &Shape) -> String {
+    match shape {
+        Shape::Mesh { mesh, surface, .. } => {
+            let file = mesh.path.file_name().unwrap_or_default().to_string_lossy();
+            match surface {
+                MeshSurface::Exact => format!("triangles of {file}"),
+                MeshSurface::Grid { cell, .. } => format!(
+                    "{file} as a grid of distances{}",
+                    cell.map_or(String::new(), |c| format!(", cell {:.3} mm", c * 1e3))
+                ),
+            }
+        }
+        other => other.name().to_owned(),
+    }
+}
+
+fn motion(motion: &Motion) -> String {
+    let mut text = String::new();
+    if let Some(turn) = motion.turn {
+        text += &format!("; turns at {:.2} r/min", turn.rate * 30.0 / PI);
+    }
+    for shift in &motion.shifts {
+        text += &match shift.course {
+            Course::Steady(speed) => format!("; moves at {speed} m/s"),
+            Course::Swing {
+                amplitude,
+                frequency,
+            } => format!("; swings by {:.3} mm at {frequency} Hz", amplitude * 1e3),
+        };
+    }
+    text += &match motion.begins {
+        Begin::At(0.0) => String::new(),
+        Begin::At(time) => format!(" from {time} s on"),
+        Begin::WhenStill => " once the grains are still".to_owned(),
+    };
+    text
 }
 
 fn not_modelled(scene: &Scene) -> Vec<String> {

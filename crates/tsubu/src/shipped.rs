@@ -4,39 +4,87 @@ use crate::trouble::Trouble;
 use std::path::Path;
 use tsubu::scene::Source;
 
-/// Name and text of each shipped scene.
-const SCENES: [(&str, &str); 1] = [(
-    "angle_of_repose",
-    include_str!("../../../scenarios/angle_of_repose.ron"),
-)];
+/// A scene that comes with the program, and the files that it names.
+struct Shipped {
+    name: &'static str,
+    text: &'static str,
+    files: &'static [(&'static str, &'static [u8])],
+}
+
+const SCENES: [Shipped; 2] = [
+    Shipped {
+        name: "angle_of_repose",
+        text: include_str!("../../../scenarios/angle_of_repose.ron"),
+        files: &[],
+    },
+    Shipped {
+        name: "screw_feeder",
+        text: include_str!("../../../scenarios/screw_feeder.ron"),
+        files: &[
+            (
+                "meshes/screw.stl",
+                include_bytes!("../../../scenarios/meshes/screw.stl"),
+            ),
+            (
+                "meshes/casing.stl",
+                include_bytes!("../../../scenarios/meshes/casing.stl"),
+            ),
+            (
+                "meshes/hopper.stl",
+                include_bytes!("../../../scenarios/meshes/hopper.stl"),
+            ),
+            (
+                "meshes/fill.stl",
+                include_bytes!("../../../scenarios/meshes/fill.stl"),
+            ),
+        ],
+    },
+];
 
 /// `tsubu scenes`.
 pub fn list() -> Result<u8, Trouble> {
-    for (name, text) in SCENES {
+    for Shipped { name, text, .. } in SCENES {
         let title = Source::from_text(name, text).check()?.scene.title;
         say!("{name:<20} {title}");
     }
-    say!("\nCopy one here to edit it:  tsubu init {}", SCENES[0].0);
+    say!("\nCopy one here to edit it:  tsubu init {}", SCENES[0].name);
     Ok(0)
 }
 
 /// `tsubu init NAME`.
 pub fn init(name: &str) -> Result<u8, Trouble> {
     let name = name.trim_end_matches(".ron");
-    let Some((name, text)) = SCENES.iter().find(|s| s.0 == name) else {
-        let known: Vec<&str> = SCENES.iter().map(|s| s.0).collect();
+    let Some(scene) = SCENES.iter().find(|s| s.name == name) else {
+        let known: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
         return Err(Trouble::Arguments(format!(
             "there is no shipped scene `{name}`\nhelp: shipped are {}",
             known.join(", ")
         )));
     };
     let file = format!("{name}.ron");
-    if Path::new(&file).exists() {
+    let mut all = vec![(file.as_str(), scene.text.as_bytes())];
+    all.extend(scene.files);
+    if let Some((here, _)) = all.iter().find(|(file, _)| Path::new(file).exists()) {
         return Err(Trouble::Arguments(format!(
-            "{file} is already here\nhelp: move it away, or run it: tsubu run {file}"
+            "{here} is already here\nhelp: move it away, or run what is here: tsubu run {file}"
         )));
     }
-    tsubu::record::write_whole(Path::new(&file), text.as_bytes())?;
-    say!("wrote {file}; edit it, then:  tsubu run {file}");
+    for (file, bytes) in &all {
+        let path = Path::new(file);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| {
+                Trouble::Arguments(format!(
+                    "the folder {} could not be made: {e}\nhelp: go to a folder where you may write",
+                    folder.display()
+                ))
+            })?;
+        }
+        tsubu::record::write_whole(path, bytes)?;
+    }
+    let others = match scene.files.len() {
+        0 => String::new(),
+        n => format!(" and {n} files that it names"),
+    };
+    say!("wrote {file}{others}; edit it, then:  tsubu run {file}");
     Ok(0)
 }
