@@ -3,6 +3,7 @@
 mod bad_scenes; // every bad scene ends with the message it states, in the library and in the command
 mod command; // exit codes and what a run leaves behind
 mod good_scenes; // every good scene runs to its end, and its resolved text runs to the same bits
+mod machines; // meshes with faults, bodies that move, grains that come and go
 mod physics; // whole scenes with closed forms
 mod properties;
 mod same_bits; // threads, vector paths, outputs and batches change no bit

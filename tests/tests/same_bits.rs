@@ -156,7 +156,7 @@ fn the_state_in_full_precision() {
             let choices = Choices {
                 threads: Some(threads),
                 lanes: Some(lanes),
-                allow_unstable: false,
+                ..Choices::default()
             };
             let mut run = build(&checked, &choices)
                 .unwrap_or_else(|error| panic!("{error}"))

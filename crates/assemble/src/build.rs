@@ -13,7 +13,7 @@ use tsubu_engine::{
     Body, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally, World,
 };
 use tsubu_measure::{
-    Balance, Conveying, ConveyingOptions, Energy, Heap, HeapOptions, Loads, Slices, Structure,
+    Balance, Conveying, ConveyingOptions, Energy, Flow, Heap, HeapOptions, Loads, Slices, Structure,
 };
 use tsubu_model::{
     ContactLaw, Course, Dim, Domain, Gate, Motion, Observer, Plane, Shift, Space, Span, Still,
@@ -397,6 +397,9 @@ fn observers_of<D: Slices>(
     }
     if scene.output.energies {
         observers.push(Box::new(Energy::new()));
+    }
+    if !scene.outlets.is_empty() || !scene.inlets.is_empty() {
+        observers.push(Box::new(Flow::new()));
     }
     observers.push(Box::new(Structure::new(depth)));
     observers.push(Box::new(Balance::new()));

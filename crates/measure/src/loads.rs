@@ -61,7 +61,7 @@ impl<D: Dim, S: SpinState> Observer<D, S> for Loads {
 }
 
 /// Names fit for columns, each its own.
-fn columns<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+pub(crate) fn columns<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut fit: Vec<String> = Vec::new();
     for (k, name) in names.enumerate() {
         let word = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };

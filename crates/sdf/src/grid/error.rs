@@ -72,8 +72,10 @@ impl fmt::Display for GridError {
                 cell,
             } => write!(
                 f,
-                "the grid would take {:.3e} bytes, {:.3e} are allowed; a cell of {cell:.3e} m fits",
-                bytes, *most_bytes as f64
+                "the grid would take {:.3} GB, {:.3} GB are allowed; a cell of {:.4} mm fits",
+                bytes * 1e-9,
+                *most_bytes as f64 * 1e-9,
+                cell * 1e3
             ),
             Self::Stored { reason } => write!(
                 f,
