@@ -146,6 +146,48 @@ impl Steady {
         Self::of_cells(&edges, &slopes(&looks, &edges))
     }
 
+    /// Steady part of the rate of a count that swings with a known period, as what a screw lets fall at
+    /// every turn. Cells are whole periods, counted back from the end to `from` at most; the swing is then in no
+    /// cell, and a start-up is not lost in it. With 8 periods and more the start is sought as in
+    /// [`Steady::of_count`]; with fewer the whole counts, so `from` must lie behind the start-up. Fewer than two
+    /// periods are no steady part.
+    ///
+    /// ```
+    /// use tsubu_measure::Steady;
+    /// // 3 kg/s, all of it in the second half of every second.
+    /// let time: Vec<f64> = (0..=50).map(|i| 0.1 * f64::from(i)).collect();
+    /// let mass: Vec<f64> = time.iter().map(|t| 3.0 * (t.floor() + (2.0 * t.fract() - 1.0).max(0.0))).collect();
+    /// let steady = Steady::of_periods(&time, &mass, 1.0, 0.5).unwrap();
+    /// assert!((steady.from - 1.0).abs() < 1e-9 && (steady.mean - 3.0).abs() < 1e-9 && steady.blocks == 4);
+    /// ```
+    pub fn of_periods(time: &[f64], count: &[f64], period: f64, from: f64) -> Option<Self> {
+        let looks = clean(time, count);
+        let (first, end) = (looks.first()?.0.max(from), looks.last()?.0);
+        let periods = ((end - first) / period * (1.0 + 1e-9)).floor();
+        if !(2.0..1e9).contains(&periods) {
+            return None;
+        }
+        let edges: Vec<f64> = (0..=periods as usize)
+            .rev()
+            .map(|k| end - k as f64 * period)
+            .collect();
+        let rates = slopes(&looks, &edges);
+        let skipped = if rates.len() < FEWEST {
+            0
+        } else {
+            truncation(&rates)?
+        };
+        let rest = &rates[skipped..];
+        let middle = mean(rest);
+        Some(Self {
+            from: edges[skipped],
+            mean: middle,
+            uncertainty: error(rest),
+            blocks: rest.len(),
+            drift: drifts(rest, middle),
+        })
+    }
+
     /// `begin[i]` is when cell i begins.
     fn of_cells(begin: &[f64], cells: &[f64]) -> Option<Self> {
         let from = truncation(cells)?;

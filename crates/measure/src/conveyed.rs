@@ -110,11 +110,32 @@ impl Conveying {
         curves
     }
 
+    /// The steady part of what the outlet passes: whole turns of the screw, since the rate swings once a turn,
+    /// from one turn after the section has filled.
+    fn steady(&self, time: &[f64], mass: &[f64]) -> Option<Steady> {
+        let half = &self.looks[self.looks.len() / 2..];
+        let (a, b) = (half.first()?, half.last()?);
+        let turn = over(b.time - a.time, (b.turns - a.turns).abs());
+        if !turn.is_finite() {
+            return Steady::of_count(time, mass);
+        }
+        let section: Vec<f64> = self.looks.iter().map(|look| look.section.mass).collect();
+        let full = Steady::of(time, &section)?.from;
+        // Full from the first look on, but for what does not fill a cell of the search.
+        let at_once = time.get(5).is_none_or(|t| full < *t);
+        let from = if at_once {
+            f64::NEG_INFINITY
+        } else {
+            full + turn
+        };
+        Steady::of_periods(time, mass, turn, from)
+    }
+
     /// The steady part, or else the second half.
     fn part(&self) -> Part<'_> {
         let time: Vec<f64> = self.looks.iter().map(|look| look.time).collect();
         let mass: Vec<f64> = self.looks.iter().map(|look| look.outlet_mass).collect();
-        let steady = Steady::of_count(&time, &mass).filter(|steady| !steady.drift);
+        let steady = self.steady(&time, &mass).filter(|steady| !steady.drift);
         let half = time
             .first()
             .zip(time.last())

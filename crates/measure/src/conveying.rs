@@ -72,7 +72,7 @@ impl ConveyingOptions {
 /// * `turns` (rev): since the first look. Exact if the screw turns less than half a turn more or less between looks than
 ///   the mean of its speeds at both says.
 ///
-/// Report. [`crate::Steady::of_count`] says where the outlet's rate is steady; means are over that part, or over the second
+/// Report. The outlet's rate is steady from one turn after the section has filled, in whole turns ([`crate::Steady::of_periods`]); means are over that part, or over the second
 /// half of the time if there is none, and `steady` (1 or 0) says which. Uncertainties are from blocks ([`crate::Blocked`]), and of
 /// quotients from both parts as if they were independent.
 /// * `mass_rate` Q (kg/s): the slope of the outlet's mass.

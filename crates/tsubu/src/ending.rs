@@ -128,10 +128,16 @@ pub fn words(
     if let Some(figure) = figures.first() {
         text += &format!("\n  figure     {}", figure.display());
     }
+    // A level up is sixteen times cheaper, a level down sixteen times dearer.
+    let level = plan.constants.lambda.log2().round() as u32;
+    let next = match find("mass_rate") {
+        Some(_) => level + 1,
+        None if level > 2 => 2,
+        None => 3,
+    };
     text += &format!(
-        "\nNext, try:  tsubu run {} --set grains.coarse={}",
-        scene_file.display(),
-        if plan.constants.lambda > 4.0 { 2 } else { 3 }
+        "\nNext, try:  tsubu run {} --set grains.coarse={next}",
+        scene_file.display()
     );
     text
 }

@@ -107,7 +107,8 @@ fn save(folder: &RunFolder, name: &str, figure: &Figure) -> Result<PathBuf, Trou
 }
 
 fn capital(name: &str) -> String {
-    let mut letters = name.chars();
+    let words = name.replace('_', " ");
+    let mut letters = words.chars();
     letters.next().map_or(String::new(), |first| {
         first.to_uppercase().chain(letters).collect()
     })

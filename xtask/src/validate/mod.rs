@@ -8,6 +8,8 @@ mod collision;
 mod lab;
 mod report;
 mod repose;
+mod scenes;
+mod screw;
 mod wca;
 
 use report::Report;
@@ -47,6 +49,13 @@ const SUITES: &[Suite] = &[
         full_grain_steps: repose::FULL_GRAIN_STEPS,
         speed: MANY_GRAINS,
         run: repose::run,
+    },
+    Suite {
+        name: "screw",
+        about: "paper A's screw feeder: a plug, the rate against theory, speeds, stiffness, kinds of screw",
+        full_grain_steps: screw::FULL_GRAIN_STEPS,
+        speed: MANY_GRAINS,
+        run: screw::run,
     },
 ];
 

@@ -4,10 +4,13 @@
 //! taken up again. Its name holds a fingerprint of the physics (the bits of a short run), so a
 //! change of the code or of the scene starts anew.
 
+use crate::validate::scenes::{
+    build_on_one_thread, changed, from_places, keep, places, until_released,
+};
 use std::fmt::Write as _;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use tsubu_assemble::{Built, Choices, Simulation, build};
+use tsubu_assemble::Simulation;
 use tsubu_scene::Source;
 
 /// Between two samples, s.
@@ -74,8 +77,6 @@ impl History {
 impl Case {
     /// The source of the scene with the changes of this case.
     pub fn source(&self, root: &Path) -> Result<Source, String> {
-        let mut source =
-            Source::read(root.join("scenarios/angle_of_repose.ron")).map_err(|e| e.to_string())?;
         let sets = [
             format!("grains.coarse={}", self.coarse),
             format!("grains.law.damping=Equal(\"{} kg/s\")", 0.1257 * self.gamma),
@@ -90,27 +91,13 @@ impl Case {
             // The books are looked at where heaps are cheap; at n = 1 the tally would cost minutes.
             format!("output.energies={}", self.coarse > 1),
         ];
-        for set in sets {
-            source.set(&set).map_err(|e| e.to_string())?;
-        }
-        Ok(source)
+        changed(&root.join("scenarios/angle_of_repose.ron"), &sets)
     }
 
-    /// The source that runs out from a bed on file. Listed grains are not coarsened, so the coarse grain
-    /// is named outright: under the renormalisation it is a grain of the same material.
+    /// The source that runs out from a bed on file.
     fn source_from(&self, root: &Path, bed: &Path) -> Result<Source, String> {
-        let lambda = f64::from(1u32 << self.coarse);
-        let sets = [
-            "grains.coarse=0".to_owned(),
-            format!("grains.diameter={} mm", 1.350 * lambda),
-            format!(
-                "grains.law.damping=Equal(\"{} kg/s\")",
-                0.1257 * self.gamma * lambda * lambda
-            ),
-            format!("initial.file={}", bed.display()),
-        ];
         let mut source = self.source(root)?;
-        for set in sets {
+        for set in from_places(self.coarse, 0.1257 * self.gamma, bed) {
             source.set(&set).map_err(|e| e.to_string())?;
         }
         Ok(source)
@@ -128,11 +115,7 @@ impl Case {
         if !file.exists() {
             let mut run = build_on_one_thread(&stiff.source(root)?)?.simulation;
             until_released(&mut *run)?;
-            let mut text = "x,y,z\n".to_owned();
-            for (x, _) in run.state() {
-                let _ = writeln!(text, "{:?},{:?},{:?}", x.x, x.y, x.z);
-            }
-            keep(&file, &text)?;
+            keep(&file, &places(&*run))?;
         }
         Ok(file)
     }
@@ -209,33 +192,6 @@ impl Case {
         history.budget = budget.unwrap_or(f64::NAN);
         Ok(history)
     }
-}
-
-/// One thread each; several cases run side by side.
-fn build_on_one_thread(source: &Source) -> Result<Built, String> {
-    let choices = Choices {
-        threads: Some(1),
-        ..Choices::default()
-    };
-    let checked = source.check().map_err(|e| e.to_string())?;
-    build(&checked, &choices).map_err(|e| e.to_string())
-}
-
-/// Runs until the wall is gone, to within a few steps, and says when it went.
-fn until_released(run: &mut dyn Simulation) -> Result<f64, String> {
-    run.look();
-    while run.released_at().is_none() && !run.is_over() {
-        run.advance(50);
-    }
-    run.released_at()
-        .ok_or_else(|| format!("the wall was never removed: {:?}", run.stop()))
-}
-
-fn keep(file: &Path, text: &str) -> Result<(), String> {
-    let parent = file.parent().unwrap_or(file);
-    std::fs::create_dir_all(parent)
-        .and_then(|()| std::fs::write(file, text))
-        .map_err(|e| format!("{}: {e}", file.display()))
 }
 
 fn sample(run: &mut dyn Simulation) -> [f64; COLUMNS.len()] {

@@ -1,0 +1,254 @@
+//! Suite `screw`: paper A's screw feeder (sections 4 and 6) against theory and against itself.
+//!
+//! Two things hold whatever the grains: a plug that cannot turn advances one pitch per turn, and what
+//! leaves is what the tube holds times its axial speed. The rate itself has no closed form; Q = a A p n ρb is
+//! a definition of a, and how near a is to 1 is what the charts say.
+
+mod plug;
+mod runs;
+
+use super::check::Tolerance;
+use super::report::Report;
+use rayon::prelude::*;
+use runs::{Case, Kind, Measured, fingerprint};
+use tsubu_picture::Figure;
+
+/// Seven speeds at n = 3 and the cheaper comparisons at n = 4.
+pub const FULL_GRAIN_STEPS: f64 = 1.2e11;
+
+/// Paper A's speeds, r/min (fig. 8).
+const SPEEDS: [f64; 7] = [20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0];
+
+/// The suite.
+pub fn run(report: &mut Report) -> Result<(), String> {
+    plug::run(report)?;
+    let root = report.root().to_owned();
+    let print = fingerprint(&root)?;
+    report.progress("the bed at n = 4 is settled");
+    let all = |cases: &[Case]| -> Result<Vec<Measured>, String> {
+        cases
+            .par_iter()
+            .map(|case| {
+                eprintln!("  screw {case:?} …");
+                case.measured(&root, print)
+            })
+            .collect()
+    };
+    // The beds are made first: cases that run side by side share them.
+    let base = Case::of(4, 60.0);
+    let one = all(&[base])?;
+    identities(report, &base, &one[0]);
+    if !report.full() {
+        return Ok(());
+    }
+    let compared = comparisons(report, &base, &one[0], &all)?;
+    report.progress(&format!("{compared} comparisons at n = 4"));
+    let speeds: Vec<Case> = SPEEDS.iter().map(|&rpm| Case::of(3, rpm)).collect();
+    all(&speeds[2..3])?;
+    let measured = all(&speeds)?;
+    for (case, measured) in speeds.iter().zip(&measured) {
+        identities(report, case, measured);
+    }
+    against_speed(report, &measured)
+}
+
+/// What must hold in any feeder.
+fn identities(report: &mut Report, case: &Case, measured: &Measured) {
+    let name = format!("n = {}, {} r/min", case.coarse, case.rpm);
+    let (rate, rate_error) = measured.get("mass_rate");
+    let (section, section_error) = measured.get("mass_rate_from_section");
+    report.check(
+        format!("{name}: rate at the outlet against tube mass per length × axial speed, in σ"),
+        3.0,
+        (rate - section).abs() / rate_error.hypot(section_error),
+        Tolerance::AtMost,
+        "continuity of a steady flow; three standard errors of both",
+    );
+    report.check(
+        format!("{name}: grains missing from the count"),
+        0.0,
+        measured.get("grains_missing").0,
+        Tolerance::Absolute(0.0),
+        "start + came − went − present",
+    );
+    // What a plug in the whole of the casing would carry: (casing² − shaft²)/(Ds² − ds²) of theory.
+    let most = (0.2296f64.powi(2) - 0.055f64.powi(2)) / (0.205f64.powi(2) - 0.055f64.powi(2));
+    let room = std::f64::consts::PI / 4.0 * (0.2296f64.powi(2) - 0.055f64.powi(2));
+    let tube = measured.get("solid_fraction").0 * 1370.0;
+    let (ratio, ratio_error) = measured.get("ratio_to_theory");
+    report.check(
+        format!("{name}: rate over theory at a = 1, less three of its errors"),
+        most * tube / measured.get("hopper_bulk_density").0,
+        ratio - 3.0 * ratio_error,
+        Tolerance::AtMost,
+        &format!("the tube of {room:.4} m² at its density, one pitch per turn"),
+    );
+    for (what, note) in [
+        ("ratio_to_theory", "rate over theory at a = 1"),
+        ("fill_ratio", "the measured a"),
+        (
+            "ratio_to_theory_measured_a",
+            "rate over theory at the measured a",
+        ),
+        ("axial_efficiency", "axial speed over p n"),
+        ("steady", "1 if the rate was steady"),
+    ] {
+        let (value, error) = measured.get(what);
+        report.tell(
+            format!("{name}: {what}"),
+            value,
+            &format!("{note}; ± {error:.3}"),
+        );
+    }
+}
+
+/// Comparisons that are told, at n = 4 where a run takes a minute: how much each choice moves the rate.
+fn comparisons(
+    report: &mut Report,
+    base: &Case,
+    one: &Measured,
+    all: &impl Fn(&[Case]) -> Result<Vec<Measured>, String>,
+) -> Result<usize, String> {
+    let cases = [
+        (
+            "screw as triangles",
+            Case {
+                kind: Kind::Triangles,
+                ..*base
+            },
+        ),
+        (
+            "screw as an analytic surface",
+            Case {
+                kind: Kind::Analytic,
+                ..*base
+            },
+        ),
+        (
+            "E/10",
+            Case {
+                soften: 10.0,
+                ..*base
+            },
+        ),
+        (
+            "E/1",
+            Case {
+                soften: 1.0,
+                ..*base
+            },
+        ),
+        (
+            "γt/8",
+            Case {
+                tangential: 0.125,
+                ..*base
+            },
+        ),
+        (
+            "μ = 0.2",
+            Case {
+                friction: 0.2,
+                ..*base
+            },
+        ),
+        (
+            "μ = 0.6",
+            Case {
+                friction: 0.6,
+                ..*base
+            },
+        ),
+        (
+            "walls touched at the centre, s = R",
+            Case {
+                at_centres: true,
+                ..*base
+            },
+        ),
+    ];
+    let measured = all(&cases.map(|c| c.1))?;
+    let (rate, error) = one.get("mass_rate");
+    for ((name, _), other) in cases.iter().zip(&measured) {
+        let (value, other_error) = other.get("mass_rate");
+        let spread = value / rate * (error / rate).hypot(other_error / value);
+        report.tell(
+            format!("n = 4, 60 r/min, {name}: mass rate over that of the base case"),
+            value / rate,
+            &format!("± {spread:.3}"),
+        );
+        let (ratio, _) = other.get("ratio_to_theory");
+        report.tell(
+            format!("n = 4, 60 r/min, {name}: rate over theory at a = 1"),
+            ratio,
+            "",
+        );
+    }
+    Ok(cases.len())
+}
+
+/// Paper A's figure 8: the rate against the speed, with theory at a = 1 and at the measured a.
+fn against_speed(report: &mut Report, measured: &[Measured]) -> Result<(), String> {
+    let column =
+        |name: &str| -> (Vec<f64>, Vec<f64>) { measured.iter().map(|m| m.get(name)).unzip() };
+    let (rate, rate_error) = column("mass_rate");
+    let (ratio, ratio_error) = column("ratio_to_theory");
+    let (a, a_error) = column("fill_ratio");
+    let theory: Vec<f64> = rate.iter().zip(&ratio).map(|(q, r)| q / r).collect();
+    let with_a: Vec<f64> = theory.iter().zip(&a).map(|(q, a)| q * a).collect();
+    let figure = Figure::new(
+        "Paper A's screw feeder at n = 3",
+        "speed of the screw (r/min)",
+        "mass rate (kg/s)",
+    )
+    .line(
+        "theory, a = 1, bulk density of the hopper",
+        &SPEEDS,
+        &theory,
+    )
+    .line("theory, measured a", &SPEEDS, &with_a)
+    .points(
+        "tsubu, screw as a grid of distances",
+        &SPEEDS,
+        &rate,
+        Some(&rate_error),
+    );
+    report.figure("screw_rate", figure)?;
+    let figure = Figure::new(
+        "Filling and rate over theory at n = 3",
+        "speed of the screw (r/min)",
+        "ratio (–)",
+    )
+    .points(
+        "rate over theory at a = 1",
+        &SPEEDS,
+        &ratio,
+        Some(&ratio_error),
+    )
+    .points("filling ratio a", &SPEEDS, &a, Some(&a_error));
+    report.figure("screw_fill", figure)?;
+    // Linearity over 20–80 r/min: R² of the straight line.
+    let (x, y) = (&SPEEDS[..4], &rate[..4]);
+    let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+    let (mx, my) = (mean(x), mean(y));
+    let sum = |f: &dyn Fn(usize) -> f64| (0..x.len()).map(f).sum::<f64>();
+    let (xy, xx, yy) = (
+        sum(&|i| (x[i] - mx) * (y[i] - my)),
+        sum(&|i| (x[i] - mx).powi(2)),
+        sum(&|i| (y[i] - my).powi(2)),
+    );
+    report.tell(
+        "n = 3: R² of the rate against speed, 20–80 r/min",
+        xy * xy / (xx * yy),
+        "",
+    );
+    for (speed, ratio) in SPEEDS.iter().zip(&ratio) {
+        let inside = (0.70..=1.02).contains(ratio);
+        report.tell(
+            format!("n = 3, {speed} r/min: inside the band 0.70–1.02 of Coulomb theory"),
+            f64::from(u8::from(inside)),
+            "1 if it is; these grains are viscous, so it need not be",
+        );
+    }
+    Ok(())
+}

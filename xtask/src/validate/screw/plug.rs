@@ -1,0 +1,87 @@
+//! The kinematic limit: a plug that cannot turn is advanced by one pitch per turn.
+//!
+//! One grain in a square channel along the screw can only move along the axis; the flight pushes it from
+//! behind, and a little friction of the floor keeps it there. Whatever the law, it then goes at p n, so the
+//! ratio to theory is exactly 1.
+
+use crate::validate::check::Tolerance;
+use crate::validate::report::Report;
+use tsubu_assemble::{Choices, build};
+use tsubu_scene::Source;
+
+/// A grain of n = 3 in a channel at the bottom of the screw, the screw at 60 r/min.
+fn scene(shape: &str) -> String {
+    format!(
+        r#"(
+    title: "A plug that cannot turn",
+    gravity: "9.80665 m/s2",
+    grains: (
+        diameter: "10.8 mm", density: "1370 kg/m3",
+        law: Repulsion(stiffness: YoungModulus("31 MPa"), damping: Equal("8.04 kg/s")),
+    ),
+    walls: [
+        (name: "screw", shape: {shape}, restitution: 0.5, friction: 0.413, motion: (
+            turn: (point: ("0 mm", "0 mm", "0 mm"), axis: (1, 0, 0), rate: "-60 rpm"),
+        )),
+        (name: "right", shape: HalfSpace(point: ("0 mm", "-5.41 mm", "0 mm"), outward: (0, 1, 0)), restitution: 0.5),
+        (name: "left", shape: HalfSpace(point: ("0 mm", "5.41 mm", "0 mm"), outward: (0, -1, 0)), restitution: 0.5),
+        (name: "bottom", shape: HalfSpace(point: ("0 mm", "0 mm", "-75.41 mm"), outward: (0, 0, 1)), restitution: 0.5, friction: 0.1),
+        (name: "top", shape: HalfSpace(point: ("0 mm", "0 mm", "-64.59 mm"), outward: (0, 0, -1)), restitution: 0.5),
+    ],
+    initial: (grains: [(at: ("140 mm", "0 mm", "-70 mm"))]),
+    time: (step: PerPeriod(20), until: "3.2 s"),
+)"#
+    )
+}
+
+/// Advance per turn over two turns, once the flight has caught up with the grain, in pitches.
+fn advance(report: &Report, shape: &str) -> Result<f64, String> {
+    let meshes = report.root().join("scenarios/meshes");
+    let shape = shape.replace("meshes", &meshes.display().to_string());
+    let checked = Source::from_text("a plug that cannot turn", &scene(&shape))
+        .check()
+        .map_err(|e| e.to_string())?;
+    let built = build(
+        &checked,
+        &Choices {
+            threads: Some(1),
+            ..Choices::default()
+        },
+    )
+    .map_err(|e| e.to_string())?;
+    let (mut run, dt) = (built.simulation, built.plan.constants.dt);
+    let mut at = |t: f64| {
+        let due = (t / dt).round() as u64;
+        run.advance(due.saturating_sub(run.steps()));
+        (run.state()[0].0.x, run.time())
+    };
+    let (start, end) = (at(1.0), at(3.0));
+    // The screw turns once per second.
+    Ok((end.0 - start.0) / 0.150 / (end.1 - start.1))
+}
+
+pub fn run(report: &mut Report) -> Result<(), String> {
+    for (name, shape) in [
+        (
+            "analytic",
+            "Screw(from: (\"0 mm\", \"0 mm\", \"0 mm\"), to: (\"675 mm\", \"0 mm\", \"0 mm\"), shaft: \"55 mm\", outer: \"205 mm\", pitch: \"150 mm\", thickness: \"6 mm\")",
+        ),
+        (
+            "grid of distances, cell 2 mm",
+            "Mesh(file: \"meshes/screw.stl\", unit: \"mm\", surface: Grid(cell: \"2 mm\"))",
+        ),
+        (
+            "triangles",
+            "Mesh(file: \"meshes/screw.stl\", unit: \"mm\", surface: Exact)",
+        ),
+    ] {
+        report.check(
+            format!("a plug that cannot turn, screw as {name}: advance per turn over the pitch"),
+            1.0,
+            advance(report, shape)?,
+            Tolerance::Relative(1e-3),
+            "pure kinematics; the issue asks for 0.1 %",
+        );
+    }
+    Ok(())
+}
