@@ -39,7 +39,10 @@ pub struct Choices {
 
 /// Hears the name of a wall and the share of its grid that is built, from any thread.
 #[derive(Clone)]
-pub struct Watch(pub Arc<dyn Fn(&str, f64) + Send + Sync>);
+pub struct Watch(pub Arc<Hearer>);
+
+/// What a [`Watch`] calls.
+pub type Hearer = dyn Fn(&str, f64) + Send + Sync;
 
 impl std::fmt::Debug for Watch {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -40,7 +40,7 @@ mod simulation;
 mod start;
 mod surfaces;
 
-pub use build::{Built, Choices, Watch, build};
+pub use build::{Built, Choices, Hearer, Watch, build};
 pub use constants::Constants;
 pub use plan::{LimitLine, Plan};
 pub use simulation::{Grain, Machine, Simulation, Snapshot, Stop};

@@ -269,7 +269,9 @@ impl Film {
 /// The edges of a shell at which its faces meet at more than 30°: what a draughtsman would draw.
 fn edges(shell: &Shell) -> impl Iterator<Item = [DVec3; 2]> {
     let key = |x: DVec3| x.to_array().map(f64::to_bits);
-    let mut met: BTreeMap<[[u64; 3]; 2], ([DVec3; 2], Vec<DVec3>)> = BTreeMap::new();
+    // The ends of an edge by their bits: where they are, and the normals of the faces that meet there.
+    type Meeting = ([DVec3; 2], Vec<DVec3>);
+    let mut met: BTreeMap<[[u64; 3]; 2], Meeting> = BTreeMap::new();
     for t in &shell.triangles {
         let [a, b, c] = t.map(|k| shell.vertices[k as usize]);
         let normal = (b - a).cross(c - a).normalize_or_zero();
