@@ -11,7 +11,7 @@ struct Shipped {
     files: &'static [(&'static str, &'static [u8])],
 }
 
-const SCENES: [Shipped; 2] = [
+const SCENES: [Shipped; 3] = [
     Shipped {
         name: "angle_of_repose",
         text: include_str!("../../../scenarios/angle_of_repose.ron"),
@@ -36,6 +36,28 @@ const SCENES: [Shipped; 2] = [
             (
                 "meshes/fill.stl",
                 include_bytes!("../../../scenarios/meshes/fill.stl"),
+            ),
+        ],
+    },
+    Shipped {
+        name: "screw_feeder_full",
+        text: include_str!("../../../scenarios/screw_feeder_full.ron"),
+        files: &[
+            (
+                "meshes/screw.stl",
+                include_bytes!("../../../scenarios/meshes/screw.stl"),
+            ),
+            (
+                "meshes/casing.stl",
+                include_bytes!("../../../scenarios/meshes/casing.stl"),
+            ),
+            (
+                "meshes/hopper_full.stl",
+                include_bytes!("../../../scenarios/meshes/hopper_full.stl"),
+            ),
+            (
+                "meshes/fill_full.stl",
+                include_bytes!("../../../scenarios/meshes/fill_full.stl"),
             ),
         ],
     },
@@ -64,7 +86,13 @@ pub fn init(name: &str) -> Result<u8, Trouble> {
     let file = format!("{name}.ron");
     let mut all = vec![(file.as_str(), scene.text.as_bytes())];
     all.extend(scene.files);
-    if let Some((here, _)) = all.iter().find(|(file, _)| Path::new(file).exists()) {
+    // A mesh that another scene has brought already is no obstacle.
+    let same = |file: &str, bytes: &[u8]| std::fs::read(file).ok().as_deref() == Some(bytes);
+    let obstacle = all
+        .iter()
+        .enumerate()
+        .find(|(k, (file, bytes))| Path::new(file).exists() && (*k == 0 || !same(file, bytes)));
+    if let Some((_, (here, _))) = obstacle {
         return Err(Trouble::Arguments(format!(
             "{here} is already here\nhelp: move it away, or run what is here: tsubu run {file}"
         )));

@@ -101,6 +101,57 @@ pub fn fill() -> Result<Vec<Shell>, Misshapen> {
     Ok(vec![block([0.006, -0.109, 0.110], [0.312, 0.109, 0.990])?])
 }
 
+/// The hopper for paper A's 200 000 grains: on the same opening, but widening to 1200 × 1000 mm over 1.2 m.
+pub fn wide_hopper() -> Shell {
+    let inside = frustum([INLET, 2.0 * INNER], [1.2, 1.0], SIDES, SIDES + 1.2);
+    let outside = frustum(
+        [INLET + 2.0 * WALL, 2.0 * INNER + 2.0 * WALL],
+        [1.2 + 2.0 * WALL, 1.0 + 2.0 * WALL],
+        SIDES,
+        SIDES + 1.2,
+    );
+    let mut shell = Shell {
+        vertices: [inside, outside].concat(),
+        triangles: Vec::new(),
+    };
+    let mut quad = |[a, b, c, d]: [u32; 4]| shell.triangles.extend([[a, b, c], [a, c, d]]);
+    for k in 0..4u32 {
+        let next = (k + 1) % 4;
+        // Corners 0–3 below and 4–7 above, the same eight further out.
+        quad([k, k + 4, next + 4, next]);
+        quad([8 + k, 8 + next, 12 + next, 12 + k]);
+        quad([k, next, 8 + next, 8 + k]);
+        quad([4 + k, 12 + k, 12 + next, 4 + next]);
+    }
+    shell
+}
+
+/// The region to fill in it.
+pub fn wide_fill() -> Shell {
+    let mut shell = Shell {
+        vertices: frustum([0.28, 0.19], [1.10, 0.91], SIDES + 0.03, SIDES + 1.18),
+        triangles: Vec::new(),
+    };
+    let mut quad = |[a, b, c, d]: [u32; 4]| shell.triangles.extend([[a, b, c], [a, c, d]]);
+    for k in 0..4u32 {
+        let next = (k + 1) % 4;
+        quad([k, next, next + 4, k + 4]);
+    }
+    quad([3, 2, 1, 0]);
+    quad([4, 5, 6, 7]);
+    shell
+}
+
+/// The corners of a frustum over the middle of the inlet, from a rectangle (along x, along y) at `low` to one at
+/// `high`; each counter-clockwise seen from above.
+fn frustum(bottom: [f64; 2], top: [f64; 2], low: f64, high: f64) -> Vec<DVec3> {
+    let ring = |[x, y]: [f64; 2], z: f64| {
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[s, t]| DVec3::new(0.5 * (INLET + s * x), 0.5 * t * y, z))
+    };
+    [ring(bottom, low), ring(top, high)].concat()
+}
+
 fn block(low: [f64; 3], high: [f64; 3]) -> Result<Shell, Misshapen> {
     let block = Cuboid::<Space>::new(DVec3::from(low), DVec3::from(high))?;
     Ok(block.shell().unwrap_or_default())

@@ -6,11 +6,11 @@
 //! carried by −p·α/2π: one pitch towards +x for every turn of −2π.
 
 mod feeder;
-mod stl;
 
 use std::fs;
 use std::path::Path;
 use tsubu_model::Shell;
+use tsubu_sdf::mesh::{Mesh, write_stl};
 
 /// Where the files go, from the root of the workspace.
 pub const FOLDER: &str = "scenarios/meshes";
@@ -30,7 +30,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
     );
     for (name, shells) in files()? {
         let path = folder.join(format!("{name}.stl"));
-        let bytes = stl::bytes(name, &shells);
+        let bytes = stl(name, &shells);
         fs::write(&path, &bytes).map_err(|e| fail(&path, e))?;
         println!("{}", row(name, &shells, bytes.len()));
     }
@@ -42,14 +42,32 @@ pub fn run(root: &Path) -> Result<bool, String> {
 }
 
 /// Every file: its name and its closed shells in m.
-fn files() -> Result<[(&'static str, Vec<Shell>); 4], String> {
+fn files() -> Result<[(&'static str, Vec<Shell>); 6], String> {
     let screw = feeder::screw().map_err(|e| e.to_string())?;
     Ok([
         ("screw", vec![screw.mesh(feeder::CHORD)]),
         ("casing", feeder::casing().map_err(|e| e.to_string())?),
         ("hopper", feeder::hopper().map_err(|e| e.to_string())?),
         ("fill", feeder::fill().map_err(|e| e.to_string())?),
+        ("hopper_full", vec![feeder::wide_hopper()]),
+        ("fill_full", vec![feeder::wide_fill()]),
     ])
+}
+
+/// The file of some shells given in m, in mm.
+fn stl(name: &str, shells: &[Shell]) -> Vec<u8> {
+    let mut mesh = Mesh::default();
+    for shell in shells {
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices
+            .extend(shell.vertices.iter().map(|v| *v * 1e3));
+        let shifted = shell.triangles.iter().map(|t| t.map(|c| c + first));
+        mesh.triangles.extend(shifted);
+    }
+    write_stl(
+        &mesh,
+        &format!("tsubu {name}, binary STL, mm, z up, from cargo xtask meshes"),
+    )
 }
 
 fn row(name: &str, shells: &[Shell], bytes: usize) -> String {
@@ -80,18 +98,24 @@ mod tests {
     use std::collections::HashMap;
     use std::f64::consts::PI;
 
+    /// The triangles of a file, in mm.
+    fn triangles(bytes: &[u8]) -> Vec<[glam::DVec3; 3]> {
+        let mesh = tsubu_sdf::mesh::parse_stl(bytes, 1.0).unwrap();
+        (0..mesh.triangles.len()).map(|t| mesh.corners(t)).collect()
+    }
+
     /// Volume in mm³ of what an STL file encloses; panics unless every edge belongs to exactly two
     /// triangles that run through it oppositely.
     fn closed_volume(name: &str, bytes: &[u8]) -> f64 {
-        let triangles = stl::triangles(bytes).unwrap();
-        let mut edges = HashMap::<[[u32; 3]; 2], i32>::new();
+        let triangles = triangles(bytes);
+        let mut edges = HashMap::<[[u64; 3]; 2], i32>::new();
         let mut six = 0.0;
         for t in &triangles {
-            let key = t.map(|x| x.map(f32::to_bits));
+            let key = t.map(|x| x.to_array().map(f64::to_bits));
             for k in 0..3 {
                 *edges.entry([key[k], key[(k + 1) % 3]]).or_default() += 1;
             }
-            let [a, b, c] = t.map(|x| glam::DVec3::from(x.map(f64::from)));
+            let [a, b, c] = *t;
             six += a.dot(b.cross(c));
         }
         for (&[a, b], &count) in &edges {
@@ -113,15 +137,20 @@ mod tests {
             trough + ring * 232.0 + end + over,
             840.0 * 10.0 * 2.0 * (338.0 + 249.6),
             306.0 * 218.0 * 880.0,
+            // Outside less inside, frusta of rectangles: h/6 (A₁ + 4 Aₘ + A₂).
+            1200.0 / 6.0
+                * ((338.0 * 249.6 + 4.0 * 779.0 * 634.8 + 1220.0 * 1020.0)
+                    - (318.0 * 229.6 + 4.0 * 759.0 * 614.8 + 1200.0 * 1000.0)),
+            1150.0 / 6.0 * (280.0 * 190.0 + 4.0 * 690.0 * 550.0 + 1100.0 * 910.0),
         ];
         for ((name, shells), expected) in files().unwrap().into_iter().zip(expected) {
             // Each shell by itself first: a gap must not be mended by a neighbour's edge.
             for shell in &shells {
-                let one = stl::bytes(name, std::slice::from_ref(shell));
+                let one = stl(name, std::slice::from_ref(shell));
                 let volume = closed_volume(name, &one);
                 assert!(volume > 0.0, "{name} is inside out");
             }
-            let volume = closed_volume(name, &stl::bytes(name, &shells));
+            let volume = closed_volume(name, &stl(name, &shells));
             assert!(
                 (volume / expected - 1.0).abs() < 5e-3,
                 "{name}: {volume} mm³ against {expected}"
@@ -134,19 +163,11 @@ mod tests {
         let folder = crate::root().join(FOLDER);
         for (name, shells) in files().unwrap() {
             let shipped = fs::read(folder.join(format!("{name}.stl"))).unwrap();
-            let (a, b) = (
-                stl::triangles(&shipped).unwrap(),
-                stl::triangles(&stl::bytes(name, &shells)).unwrap(),
-            );
+            let (a, b) = (triangles(&shipped), triangles(&stl(name, &shells)));
             assert_eq!(a.len(), b.len(), "{name}: run cargo xtask meshes");
-            for (a, b) in a
-                .iter()
-                .flatten()
-                .flatten()
-                .zip(b.iter().flatten().flatten())
-            {
+            for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
                 // Sines differ by a bit between machines, not by more.
-                assert!((a - b).abs() < 1e-3, "{name}: run cargo xtask meshes");
+                assert!((*a - *b).length() < 1e-3, "{name}: run cargo xtask meshes");
             }
         }
     }
@@ -154,10 +175,10 @@ mod tests {
     #[test]
     fn the_triangles_of_the_screw_lie_within_the_chord_that_is_printed() {
         let screw = feeder::screw().unwrap();
-        let bytes = stl::bytes("screw", &[screw.mesh(feeder::CHORD)]);
+        let bytes = stl("screw", &[screw.mesh(feeder::CHORD)]);
         let mut farthest = 0.0f64;
-        for t in stl::triangles(&bytes).unwrap() {
-            let [a, b, c] = t.map(|x| glam::DVec3::from(x.map(f64::from)) * 1e-3);
+        for t in triangles(&bytes) {
+            let [a, b, c] = t.map(|x| x * 1e-3);
             for x in [
                 a,
                 (a + b) / 2.0,

@@ -54,7 +54,7 @@ pub fn parse_stl(bytes: &[u8], metres_per_unit: f64) -> Result<Mesh, MeshError> 
 
 /// A binary STL of the mesh in metres, `name` in its header (at most 79 bytes of it).
 ///
-/// Corners are written as f32, as the format wants: about seven digits.
+/// Corners are written as f32, as the format wants: about seven digits. The same mesh gives the same bytes.
 pub fn write_stl(mesh: &Mesh, name: &str) -> Vec<u8> {
     let mut out = Vec::with_capacity(HEADER + FACET * mesh.triangles.len());
     // Readers take a file that starts with `solid` for text.
@@ -67,7 +67,8 @@ pub fn write_stl(mesh: &Mesh, name: &str) -> Vec<u8> {
         let normal = super::double_area(corners).normalize_or_zero();
         for v in [normal].iter().chain(&corners) {
             for x in v.to_array() {
-                out.extend((x as f32).to_le_bytes());
+                // Adding zero turns −0 into 0, so that equal corners have equal bytes.
+                out.extend((x as f32 + 0.0).to_le_bytes());
             }
         }
         out.extend([0, 0]);
