@@ -8,6 +8,7 @@ mod collision;
 mod lab;
 mod report;
 mod repose;
+mod sdf;
 mod wca;
 
 use report::Report;
@@ -48,10 +49,19 @@ const SUITES: &[Suite] = &[
         speed: MANY_GRAINS,
         run: repose::run,
     },
+    Suite {
+        name: "sdf",
+        about: "surfaces: distances of grids and meshes, rebounds, sliding, rest, grazing",
+        full_grain_steps: sdf::FULL_GRAIN_STEPS,
+        speed: ONE_GRAIN_ON_A_MESH,
+        run: sdf::run,
+    },
 ];
 
 /// Many suites step a handful of grains at a time, where the cost is that of the step and not of the grain.
 const FEW_GRAINS: f64 = 1.5e7;
+/// One grain whose step asks a surface five times, a mesh among them.
+const ONE_GRAIN_ON_A_MESH: f64 = 1.0e6;
 /// Heaps, two side by side.
 const MANY_GRAINS: f64 = 4.0e7;
 
