@@ -17,7 +17,7 @@ use tsubu_picture::Figure;
 use tsubu_sdf::{Ball, Cuboid, DistanceGrid, Hand, Mesh, Screw, ScrewSize, Torus};
 
 /// The farthest that a chord of the meshes is from its surface, in m: R(1 − cos(π/steps)) around both ways.
-const CHORD: f64 = 1.5e-6;
+const CHORD: f64 = 3e-6;
 
 /// What the formula says at a point.
 struct Truth {
@@ -235,7 +235,7 @@ fn smooth(report: &mut Report, figures: &mut [Figure; 2], trial: &Trial) -> Resu
             cell * cell / 8.0 * bent + CHORD,
             found.largest,
             Tolerance::AtMost,
-            "h²/8 (|κ₁| + |κ₂|) in the band, and 1.5e-6 m for the mesh's chords",
+            "h²/8 (|κ₁| + |κ₂|) in the band, and 3e-6 m for the mesh's chords",
         );
         if cell == cells[1] {
             let (wrong, _) = wrong_signs(trial, &grid, cell);

@@ -29,7 +29,7 @@ fn slide(bench: &Bench, surface: &Shared, tilt: DMat3, start: DVec3) -> (f64, f6
 
 /// The checks.
 pub fn run(report: &mut Report) -> Result<(), String> {
-    let bench = Bench::new()?;
+    let bench = Bench::as_run()?;
     let weight = bench.kind.weight * GRAVITY;
     for degrees in [5.0, 15.0, 21.0, 24.0, 30.0, 45.0, 60.0] {
         let (sin, cos) = f64::to_radians(degrees).sin_cos();
