@@ -9,6 +9,8 @@ mod rebound;
 mod rest;
 mod shapes;
 mod slide;
+mod trial;
+mod walls;
 
 use super::report::Report;
 

@@ -5,6 +5,7 @@
 
 use super::bench::{Bench, FRICTION, RESTITUTION, Throw, impulse};
 use super::shapes::{self, Shared};
+use super::walls::{Wall, walls};
 use crate::validate::check::Tolerance;
 use crate::validate::lab::Draw;
 use crate::validate::report::Report;
@@ -13,8 +14,6 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use tsubu_contact::restitution::{at_zero_force, ratio_from_restitution};
 use tsubu_integrate::Scheme;
-use tsubu_model::Space;
-use tsubu_sdf::{Ball, Cylinder, HalfSpace, Mesh, Tube};
 
 /// Angles of incidence from the normal, in degrees.
 const ANGLES: [f64; 4] = [0.0, 20.0, 45.0, 70.0];
@@ -22,81 +21,6 @@ const ANGLES: [f64; 4] = [0.0, 20.0, 45.0, 70.0];
 const PLACES: usize = 4;
 /// Allowed for the mesh's facets, whose normals are off by up to 0.125°, in degrees.
 const FACETS: f64 = 0.13;
-
-/// A wall said in several ways.
-struct Wall {
-    name: &'static str,
-    formula: Shared,
-    mesh: Mesh,
-    /// The principal curvatures where the grain's centre is, in 1/m.
-    curvature: [f64; 2],
-    /// A point of the surface and its normal, from two numbers in 0…1.
-    place: fn(f64, f64) -> (DVec3, DVec3),
-}
-
-const SHAFT: f64 = 0.0275;
-const CASING: f64 = 0.1148;
-const BALL: f64 = 0.05;
-
-fn walls(bench: &Bench) -> Result<Vec<Wall>, String> {
-    let wrong = |e: tsubu_sdf::Misshapen| e.to_string();
-    let (from, to) = (DVec3::X * -0.03, DVec3::X * 0.03);
-    let shaft = Cylinder::new(from, to, SHAFT).map_err(wrong)?;
-    let casing = Tube::new(from, to, CASING, CASING + 0.0102).map_err(wrong)?;
-    // Chords of N sides: R(1 − cos(π/N)); with N = 1440 a facet's normal is off by 0.125° at its edges.
-    let chord = |radius: f64| radius * (1.0 - (0.5 * TAU / 1440.0).cos());
-    // Rings near the pole, where the grains meet the ball, are 0.15° apart.
-    let mut angles: Vec<f64> = (0..=50).map(|k| f64::from(k) * 2.6e-3).collect();
-    angles.extend((1..=60).map(|k| 0.13 + (0.5 * TAU - 0.13) * f64::from(k) / 60.0));
-    let half = bench.kind.radius;
-    Ok(vec![
-        Wall {
-            name: "plane",
-            formula: Arc::new(HalfSpace::<Space>::new(DVec3::ZERO, DVec3::Z)),
-            mesh: shapes::cuboid(DVec3::new(-0.05, -0.05, -0.04), DVec3::new(0.05, 0.05, 0.0))?,
-            curvature: [0.0; 2],
-            place: |s, t| {
-                (
-                    DVec3::new(0.02 * (s - 0.5), 0.02 * (t - 0.5), 0.0),
-                    DVec3::Z,
-                )
-            },
-        },
-        Wall {
-            name: "shaft, R = 27.5 mm",
-            formula: Arc::new(shaft.clone()),
-            mesh: shapes::mesh(shaft.mesh(chord(SHAFT))),
-            curvature: [1.0 / (SHAFT + half), 0.0],
-            place: |s, t| {
-                let (sin, cos) = (0.9 * (t - 0.5)).sin_cos();
-                let normal = DVec3::new(0.0, sin, cos);
-                (normal * SHAFT + DVec3::X * 0.02 * (s - 0.5), normal)
-            },
-        },
-        Wall {
-            name: "inside of a tube, R = 114.8 mm",
-            formula: Arc::new(casing.clone()),
-            mesh: shapes::mesh(casing.mesh(chord(CASING))),
-            curvature: [-1.0 / (CASING - half), 0.0],
-            place: |s, t| {
-                let (sin, cos) = (0.9 * (t - 0.5)).sin_cos();
-                let normal = DVec3::new(0.0, sin, cos);
-                (normal * -CASING + DVec3::X * 0.02 * (s - 0.5), normal)
-            },
-        },
-        Wall {
-            name: "ball, R = 50 mm",
-            formula: Arc::new(Ball::<Space>::new(DVec3::ZERO, BALL).map_err(wrong)?),
-            mesh: shapes::ball(BALL, &angles, 256),
-            curvature: [1.0 / (BALL + half); 2],
-            place: |s, t| {
-                let (tilt, (sin, cos)) = (0.01 + 0.08 * s, (TAU * t).sin_cos());
-                let normal = DVec3::new(tilt.sin() * cos, tilt.sin() * sin, tilt.cos());
-                (normal * BALL, normal)
-            },
-        },
-    ])
-}
 
 /// The throws at one angle.
 fn throws(bench: &Bench, wall: &Wall, degrees: f64) -> Vec<Throw> {
@@ -335,7 +259,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
         try_wall(report, &bench, wall)?;
     }
     four_sweeps(report, &walls[0])?;
-    // The fine grid has 70 million nodes' distances to find.
+    // The fine grid has some 70 million nodes' distances to find.
     if report.full() {
         report.progress("a shaft with a fine grid");
         fine(report, &bench, &walls[1])?;

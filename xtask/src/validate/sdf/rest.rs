@@ -2,8 +2,8 @@
 //!
 //! Friction is kinetic: each step stops the slip that the step before left, so a grain at rest on one wall
 //! may still move as fast as its weight drives it within a step, gΔt. That is the bound: ½ m (gΔt)².
-//! A surface that reports one contact holds a grain in a corner of n faces by each of them in turn, so that
-//! weight drives it for n steps between: there the bound is ½ m (n gΔt)².
+//! A grid that asks its triangles reports the nearest contact only. It holds a grain in a corner of n faces by
+//! each of them in turn, so that weight drives it for n steps between: there the bound is ½ m (n gΔt)².
 
 use super::bench::{Bench, FRICTION, GRAVITY, RESTITUTION, USUAL_STEPS};
 use super::shapes::{self, Shared};
@@ -22,7 +22,7 @@ struct Bed {
     start: DVec3,
     /// Where the weight points.
     down: DVec3,
-    /// Faces that press it while the surface reports the nearest only: each holds it every so manieth step.
+    /// Faces that press it while the surface reports the nearest only: each holds it once in so many steps.
     in_turn: f64,
 }
 
@@ -109,7 +109,11 @@ fn beds(bench: &Bench) -> Result<Vec<Bed>, String> {
     let mut add =
         |wall: &str, way: &str, surface: Shared, start: DVec3, down: DVec3, faces: f64| {
             let name = format!("{wall}, {way}");
-            let in_turn = if way.starts_with("grid") { faces } else { 1.0 };
+            let in_turn = if way.starts_with("grid that") {
+                faces
+            } else {
+                1.0
+            };
             beds.push(Bed {
                 name,
                 start: lifted(&surface, start, down, touch),
