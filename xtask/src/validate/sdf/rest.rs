@@ -18,7 +18,9 @@ use tsubu_sdf::{Ball, Cavity, Cuboid, Cylinder, HalfSpace, Hand, Screw, ScrewSiz
 struct Bed {
     name: String,
     surface: Shared,
-    /// Where its centre is let go.
+    /// Where it would touch the true surface.
+    place: DVec3,
+    /// Where its centre is let go: there, or as much higher as this surface wants.
     start: DVec3,
     /// Where the weight points.
     down: DVec3,
@@ -116,6 +118,7 @@ fn beds(bench: &Bench) -> Result<Vec<Bed>, String> {
             };
             beds.push(Bed {
                 name,
+                place: start,
                 start: lifted(&surface, start, down, touch),
                 surface,
                 down,
@@ -194,6 +197,15 @@ fn beds(bench: &Bench) -> Result<Vec<Bed>, String> {
     Ok(beds)
 }
 
+/// Elastic energy over m g d of a grain put where it would touch the true surface.
+fn pressed(bench: &Bench, bed: &Bed) -> f64 {
+    let dt = bench.period() / USUAL_STEPS;
+    let lab = bench.lab(&bed.surface, Motion::default(), RESTITUTION, FRICTION, dt);
+    let world = lab.grain(bed.place, DVec3::ZERO).world();
+    let scale = bench.kind.weight * GRAVITY * bench.kind.diameter();
+    world.energies().elastic_walls / scale
+}
+
 /// The largest kinetic energy seen in the second half, and the most by which the energy held rose over the start; over m g d.
 fn lie(bench: &Bench, bed: &Bed, steps: u64) -> (f64, f64, f64) {
     let dt = bench.period() / USUAL_STEPS;
@@ -247,6 +259,23 @@ pub fn run(report: &mut Report) -> Result<(), String> {
             "rounding of 1e5 to 1e6 sums",
         );
         report.tell(format!("rest, {name}: how far it crept, over d"), way, "");
+        let lift = (bed.start - bed.place).length() / bench.kind.diameter();
+        if lift > 1e-3 {
+            report.tell(
+                format!(
+                    "rest, {name}: how much further out it lies than in the true corner, over d"
+                ),
+                lift,
+                "the interpolant rounds a concave corner off",
+            );
+            report.tell(
+                format!(
+                    "rest, {name}: elastic energy of a grain put into the true corner, over mgd"
+                ),
+                pressed(&bench, &bed),
+                "such a grain overlaps the grid's wall and is thrown out",
+            );
+        }
     }
     Ok(())
 }
