@@ -7,7 +7,7 @@ use tsubu_engine::{
     Body, Lanes, ManyKinds, NoTally, OneKind, Placed, Setup, TouchesAt, WithTally, World,
 };
 use tsubu_integrate::Scheme;
-use tsubu_model::{Domain, Kind, Motion, Space, Still};
+use tsubu_model::{Domain, Kind, Motion, Space, Still, Surface};
 use tsubu_sdf::HalfSpace;
 
 /// Grains of one kind that repel and damp.
@@ -28,6 +28,8 @@ pub struct Lab {
     pub law: Repulsion,
     /// Planes (a point, the outward direction) with their laws.
     pub walls: Vec<(DVec3, DVec3, RepulsiveWall)>,
+    /// Bodies of any other surface, after the planes.
+    pub surfaces: Vec<(Arc<dyn Surface<Space>>, Motion, RepulsiveWall)>,
     /// Periods in m; infinite = open.
     pub period: DVec3,
     /// Gravity in m/s².
@@ -51,6 +53,7 @@ impl Lab {
             kind,
             law,
             walls: Vec::new(),
+            surfaces: Vec::new(),
             period: DVec3::INFINITY,
             gravity: DVec3::ZERO,
             scheme,
@@ -81,6 +84,24 @@ impl Lab {
         self
     }
 
+    /// With a body of any surface.
+    pub fn body(
+        mut self,
+        surface: Arc<dyn Surface<Space>>,
+        motion: Motion,
+        restitution: Option<f64>,
+        friction: f64,
+    ) -> Self {
+        let grains = self.law;
+        let law = RepulsiveWall {
+            grains,
+            restitution,
+            friction,
+        };
+        self.surfaces.push((surface, motion, law));
+        self
+    }
+
     /// With a grain.
     pub fn grain(mut self, position: DVec3, velocity: DVec3) -> Self {
         self.grains.push((position, velocity));
@@ -93,19 +114,25 @@ impl Lab {
         law: L,
         kind_of: impl Fn(usize) -> usize,
     ) -> Setup<Space, K, L, RepulsiveWall> {
-        let body = |(number, (point, outward, law))| Body {
+        let plane = |(point, outward, law)| -> (Arc<dyn Surface<Space>>, Motion, RepulsiveWall) {
+            let surface = HalfSpace::<Space>::new(point, outward);
+            (Arc::new(surface), Motion::default(), law)
+        };
+        let body = |(number, (surface, motion, law))| Body {
             name: format!("wall {number}"),
-            surface: Arc::new(HalfSpace::<Space>::new(point, outward)),
+            surface,
             law,
             touches_at: TouchesAt::Surface,
             removed_at: None,
-            motion: Motion::default(),
+            motion,
             waits: false,
         };
+        let planes = self.walls.into_iter().map(plane);
+        let bodies = planes.chain(self.surfaces).enumerate().map(body).collect();
         Setup {
             kinds,
             law,
-            bodies: self.walls.into_iter().enumerate().map(body).collect(),
+            bodies,
             domain: Domain {
                 period: self.period,
             },

@@ -10,6 +10,7 @@ mod report;
 mod repose;
 mod scenes;
 mod screw;
+mod sdf;
 mod wca;
 
 use report::Report;
@@ -51,6 +52,13 @@ const SUITES: &[Suite] = &[
         run: repose::run,
     },
     Suite {
+        name: "sdf",
+        about: "surfaces: distances of grids and meshes, rebounds, sliding, rest, grazing",
+        full_grain_steps: sdf::FULL_GRAIN_STEPS,
+        speed: ONE_GRAIN_ON_A_MESH,
+        run: sdf::run,
+    },
+    Suite {
         name: "screw",
         about: "paper A's screw feeder: a plug, the rate against theory, speeds, stiffness, kinds of screw",
         full_grain_steps: screw::FULL_GRAIN_STEPS,
@@ -61,6 +69,8 @@ const SUITES: &[Suite] = &[
 
 /// Many suites step a handful of grains at a time, where the cost is that of the step and not of the grain.
 const FEW_GRAINS: f64 = 1.5e7;
+/// One grain on a mesh, where most of the time goes into making grids.
+const ONE_GRAIN_ON_A_MESH: f64 = 1.0e5;
 /// Heaps, two side by side.
 const MANY_GRAINS: f64 = 4.0e7;
 
