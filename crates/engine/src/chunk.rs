@@ -2,6 +2,7 @@
 //! Sums are kept chunk by chunk and added in order, so the number of threads changes no bit.
 
 use glam::DVec3;
+use rayon::prelude::*;
 use tsubu_model::{Dim, HitBuffer};
 use tsubu_neighbors::ChunkList;
 
@@ -55,6 +56,25 @@ pub(crate) struct Chunk<D: Dim> {
     pub last_sweep2: f64,
     /// Slot of a grain that was not finite or too fast in the last drift.
     pub trouble: Option<usize>,
+}
+
+/// Grains from which on lists are built by the threads of the pool that runs the step, if there is one.
+const MANY: usize = 4 * CHUNK;
+
+/// Work on every chunk of `n` grains, by the threads of the pool where that pays.
+pub(crate) fn each_chunk<D: Dim>(
+    chunks: &mut [Chunk<D>],
+    n: usize,
+    work: impl Fn(usize, &mut Chunk<D>) + Sync + Send,
+) {
+    if n >= MANY && rayon::current_thread_index().is_some() {
+        let chunks = chunks.par_iter_mut().enumerate();
+        chunks.for_each(|(number, chunk)| work(number, chunk));
+    } else {
+        for (number, chunk) in chunks.iter_mut().enumerate() {
+            work(number, chunk);
+        }
+    }
 }
 
 impl<D: Dim> Chunk<D> {

@@ -1,10 +1,9 @@
 //! Which grains are near which body: noted at each list build and again when a body has moved.
 
-use crate::chunk::{CHUNK, Chunk, Near};
+use crate::chunk::{CHUNK, Chunk, Near, each_chunk};
 use crate::kinds::{KindSet, pick};
 use crate::line::Layout;
 use crate::world::{Tally, World};
-use rayon::prelude::*;
 use tsubu_model::{ContactLaw, SpinState};
 
 /// How far a body may move, as a share of the law's range, before the grains near it are noted anew.
@@ -71,16 +70,7 @@ where
                 }
             }
         };
-        if n >= 4 * CHUNK && rayon::current_thread_index().is_some() {
-            self.chunks
-                .par_iter_mut()
-                .enumerate()
-                .for_each(|(number, chunk)| work(number, chunk));
-        } else {
-            for (number, chunk) in self.chunks.iter_mut().enumerate() {
-                work(number, chunk);
-            }
-        }
+        each_chunk(&mut self.chunks, n, work);
         self.body_moved.fill(0.0);
     }
 }

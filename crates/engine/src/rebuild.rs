@@ -1,10 +1,9 @@
 //! When and how the lists are built anew. Nothing here looks at a clock or a number of threads.
 
-use crate::chunk::{CHUNK, Chunk};
+use crate::chunk::{CHUNK, Chunk, each_chunk};
 use crate::kinds::KindSet;
 use crate::line::Layout;
 use crate::world::{Tally, World};
-use rayon::prelude::*;
 use tsubu_model::{ContactLaw, SpinState, Vector};
 use tsubu_neighbors::{CellGrid, Reorder};
 
@@ -101,16 +100,7 @@ where
                     .all(|&j| j as usize <= n)
             );
         };
-        if n >= 4 * CHUNK && rayon::current_thread_index().is_some() {
-            self.chunks
-                .par_iter_mut()
-                .enumerate()
-                .for_each(|(number, chunk)| work(number, chunk));
-        } else {
-            for (number, chunk) in self.chunks.iter_mut().enumerate() {
-                work(number, chunk);
-            }
-        }
+        each_chunk(&mut self.chunks, n, work);
         self.note_near_bodies();
         self.build_scratch = grid.bytes() + grid.bytes() / 2 + reorder.bytes();
         self.moved = 0.0;
