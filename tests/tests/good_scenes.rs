@@ -13,6 +13,12 @@ fn shortened(path: &Path) -> Checked {
     if path.ends_with("angle_of_repose.ron") {
         set("grains.coarse=3");
     }
+    if path
+        .file_stem()
+        .is_some_and(|name| name.to_string_lossy().starts_with("screw_feeder"))
+    {
+        set("grains.coarse=4");
+    }
     let text = std::fs::read_to_string(path).unwrap_or_default();
     if text.contains("still: (") {
         set("still.kinetic_energy=1e9");
@@ -23,7 +29,13 @@ fn shortened(path: &Path) -> Checked {
 }
 
 fn assembled(checked: &Checked) -> Built {
-    build(checked, &Choices::default()).unwrap_or_else(|error| panic!("{error}"))
+    // Grids of distances are kept between the tests, as the command keeps them between runs.
+    let grids = Some(Path::new(env!("CARGO_TARGET_TMPDIR")).join("grids"));
+    let choices = Choices {
+        grids,
+        ..Choices::default()
+    };
+    build(checked, &choices).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn all() -> Vec<PathBuf> {
