@@ -15,6 +15,8 @@ pub(crate) struct Near {
     pub body: u32,
     /// Position within the chunk.
     pub slot: u32,
+    /// The two cannot touch until the chunk's grains and the body together may have moved so far, in m.
+    pub asleep_until: f64,
 }
 
 /// The dissipative parts of one wall contact, kept for the tally until the kick.
@@ -41,6 +43,10 @@ pub(crate) struct Load<V> {
 pub(crate) struct Chunk<D: Dim> {
     pub list: ChunkList,
     pub near: Vec<Near>,
+    /// How far its grains may have moved since `near` was noted, in m.
+    pub moved: f64,
+    /// Entries of `near` that are asked in this step.
+    pub asked: Vec<u32>,
     pub points: Vec<D::V>,
     pub reaches: Vec<f64>,
     pub hits: HitBuffer<D>,
@@ -82,6 +88,8 @@ impl<D: Dim> Chunk<D> {
         Self {
             list: ChunkList::default(),
             near: Vec::new(),
+            moved: 0.0,
+            asked: Vec::new(),
             points: Vec::new(),
             reaches: Vec::new(),
             hits: HitBuffer::default(),
@@ -98,6 +106,7 @@ impl<D: Dim> Chunk<D> {
         self.list.bytes()
             + size_of::<Self>()
             + self.near.capacity() * size_of::<Near>()
+            + self.asked.capacity() * 4
             + self.points.capacity() * size_of::<D::V>()
             + self.on_bodies.capacity() * size_of::<Load<D::V>>()
             + self.reaches.capacity() * 8

@@ -21,6 +21,9 @@ where
 {
     /// After a drift: notes the grains near the bodies anew if one may have moved by its allowance.
     pub(crate) fn keep_near_valid(&mut self) {
+        for chunk in &mut self.chunks {
+            chunk.moved += chunk.fastest2.sqrt() * self.dt;
+        }
         let mut due = false;
         for (moved, body) in self.body_moved.iter_mut().zip(&self.bodies) {
             if body.is_moved() && body.removed_at.is_none() {
@@ -36,7 +39,8 @@ where
     /// Notes for every chunk which of its grains may touch which body before the next time.
     ///
     /// Since the lists were built a grain has gone half the skin at most, and will go as far at most
-    /// before they are built again: so none comes closer than a skin.
+    /// before they are built again: so none comes closer than a skin. The room between the two is kept: the
+    /// wall pass asks the surface only once that may be used up.
     pub(crate) fn note_near_bodies(&mut self) {
         let n = self.identity.len();
         let t = self.time_of_positions();
@@ -49,6 +53,7 @@ where
         let work = |number: usize, chunk: &mut Chunk<D>| {
             let own = number * CHUNK..((number + 1) * CHUNK).min(n);
             chunk.near.clear();
+            chunk.moved = 0.0;
             for (body, wall) in bodies.iter().enumerate() {
                 if wall.removed_at.is_some() {
                     continue;
@@ -61,10 +66,12 @@ where
                         x = D::from_space(pose.to_body(D::to_space(x)));
                     }
                     let reach = pick::<K, _>(&pairs[body], lines[i].kind::<D>()).reach;
-                    if wall.surface.lower_bound(x) < reach + margin {
+                    let room = wall.surface.room(x, reach);
+                    if room < margin {
                         chunk.near.push(Near {
                             body: body as u32,
                             slot: (i - own.start) as u32,
+                            asleep_until: room,
                         });
                     }
                 }

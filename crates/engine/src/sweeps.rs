@@ -79,6 +79,7 @@ where
             bodies: &self.bodies,
             pairs: &self.wall_pairs,
             poses: &self.poses,
+            moved: &self.body_moved,
             dt: self.dt,
         };
         for (number, (chunk, damping)) in self

@@ -121,6 +121,8 @@ pub(crate) struct WallJob<'a, D: Layout, S: SpinState, W: ContactLaw<D, S>> {
     pub pairs: &'a [Vec<WallPair<W::Pair>>],
     /// Where each body is.
     pub poses: &'a [Pose],
+    /// How far each body may have moved since the grains near it were noted, in m.
+    pub moved: &'a [f64],
     pub dt: f64,
 }
 
@@ -158,10 +160,16 @@ fn contacts<D, S, K, W>(
                 .count();
         if job.bodies[number].removed_at.is_none() {
             let (pose, moved) = (&job.poses[number], job.bodies[number].is_moved());
+            let gone = chunk.moved + job.moved[number];
+            chunk.asked.clear();
             chunk.points.clear();
             chunk.reaches.clear();
             chunk.hits.hits.clear();
-            for near in &chunk.near[from..to] {
+            for (entry, near) in chunk.near.iter().enumerate().take(to).skip(from) {
+                if gone < near.asleep_until {
+                    continue;
+                }
+                chunk.asked.push(entry as u32);
                 let line = &lines[near.slot as usize];
                 let x = line.position::<D>();
                 chunk.points.push(if moved {
@@ -176,9 +184,10 @@ fn contacts<D, S, K, W>(
             job.bodies[number]
                 .surface
                 .hits(&chunk.points, &chunk.reaches, &mut chunk.hits);
+            put_to_sleep(chunk, &*job.bodies[number].surface, gone);
             for h in 0..chunk.hits.hits.len() {
                 let hit = chunk.hits.hits[h];
-                let slot = chunk.near[from + hit.of as usize].slot as usize;
+                let slot = chunk.near[chunk.asked[hit.of as usize] as usize].slot as usize;
                 let line = &lines[slot];
                 let wall = pick::<K, _>(&job.pairs[number], line.kind::<D>());
                 let s = (hit.distance + wall.offset).max(wall.least);
@@ -214,6 +223,21 @@ fn contacts<D, S, K, W>(
             }
         }
         from = to;
+    }
+}
+
+/// Grains that were asked and do not touch sleep until they and the body may have used up the room between.
+fn put_to_sleep<D: Layout>(chunk: &mut Chunk<D>, surface: &dyn Surface<D>, gone: f64) {
+    let mut hits = chunk.hits.hits.iter().map(|hit| hit.of).peekable();
+    for (of, &entry) in chunk.asked.iter().enumerate() {
+        let mut touches = false;
+        while hits.next_if_eq(&(of as u32)).is_some() {
+            touches = true;
+        }
+        if !touches {
+            let room = surface.room(chunk.points[of], chunk.reaches[of]);
+            chunk.near[entry as usize].asleep_until = gone + room;
+        }
     }
 }
 

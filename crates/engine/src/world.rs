@@ -120,7 +120,7 @@ pub struct World<
     /// No grain has moved further than this since the last list build.
     pub(crate) moved: f64,
     pub(crate) steps: u64,
-    /// True from a drift that comes before the forces to the end of its step.
+    /// True from a drift to the end of its step.
     drifted: bool,
     pub(crate) built_at: u64,
     pub(crate) builds: u64,
@@ -265,6 +265,7 @@ where
             self.kick(h, later);
         }
         if later.is_some() {
+            self.drifted = true;
             self.keep_lists_valid();
         }
         self.drifted = false;
@@ -285,6 +286,7 @@ where
             bodies: &self.bodies,
             pairs: &self.wall_pairs,
             poses: &self.poses,
+            moved: &self.body_moved,
             dt,
         };
         let work = |number: usize,
@@ -384,12 +386,14 @@ where
             bodies: &self.bodies,
             pairs: &self.wall_pairs,
             poses: &self.poses,
+            moved: &self.body_moved,
             dt: self.dt,
         };
         let mut stored = vec![0.0; self.bodies.len()];
         for (number, lines) in self.lines[..self.identity.len()].chunks(CHUNK).enumerate() {
             let mut scratch = Chunk::new(self.bodies.len());
             scratch.near.clone_from(&self.chunks[number].near);
+            scratch.moved = self.chunks[number].moved;
             wall_energy::<D, S, K, W>(&walls, lines, &mut scratch, &mut stored);
         }
         stored
@@ -429,7 +433,7 @@ where
         self.in_pool(Self::forces);
     }
 
-    /// The time to which the positions belong: a step ahead of the clock between a drift and the forces after it.
+    /// The time to which the positions belong: a step ahead of the clock from a drift to the end of its step.
     pub(crate) fn time_of_positions(&self) -> f64 {
         (self.steps + u64::from(self.drifted)) as f64 * self.dt
     }

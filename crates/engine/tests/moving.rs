@@ -5,8 +5,10 @@ use std::sync::Arc;
 use tsubu_contact::{Repulsion, RepulsiveWall};
 use tsubu_engine::{Body, Lanes, OneKind, Placed, Setup, TouchesAt, WithTally, World};
 use tsubu_integrate::Scheme;
-use tsubu_model::{Change, Course, Domain, Kind, Motion, Shift, Space, Span, Still, Turn, View};
-use tsubu_sdf::HalfSpace;
+use tsubu_model::{
+    Change, Course, Domain, HitBuffer, Kind, Motion, Shift, Space, Span, Still, Surface, Turn, View,
+};
+use tsubu_sdf::{Cuboid, HalfSpace};
 
 const D: f64 = 1.35e-3;
 
@@ -205,9 +207,9 @@ fn a_body_that_waits_rests_until_it_is_started() {
     assert_eq!(world.bodies()[0].pose.velocity, DVec3::X);
 }
 
-/// A block of grains that falls on a floor which turns a little below it.
-fn falling(threads: usize) -> Tallied {
-    let grains = (0..14 * 14 * 14)
+/// A block of grains a little above z = 0, falling.
+fn block() -> Vec<Placed<Space>> {
+    (0..14 * 14 * 14)
         .map(|k: usize| {
             let cell = DVec3::new(
                 (k % 14) as f64,
@@ -224,10 +226,14 @@ fn falling(threads: usize) -> Tallied {
                 DVec3::new(0.0, 0.0, -0.3),
             )
         })
-        .collect();
+        .collect()
+}
+
+/// A block of grains that falls on a floor which turns a little below it.
+fn falling(threads: usize) -> Tallied {
     world(
         plane(DVec3::Z, 0.4, turning(DVec3::new(7.0 * D, 0.0, 0.0), 3.0)),
-        grains,
+        block(),
         9.8,
         USUAL,
         Scheme::SymplecticEuler,
@@ -310,5 +316,74 @@ fn threads_change_no_bit_of_a_scene_with_gates_and_moving_bodies() {
             many.energies().work_of_bodies
         );
         assert!(one.velocity(0).is_finite());
+    }
+}
+
+/// The same surface, which grants no grain any room: none sleeps.
+struct Restless(Cuboid<Space>);
+
+impl Surface<Space> for Restless {
+    fn lower_bound(&self, x: DVec3) -> f64 {
+        self.0.lower_bound(x)
+    }
+    fn room(&self, _: DVec3, _: f64) -> f64 {
+        -1.0
+    }
+    fn hits(&self, x: &[DVec3], reach: &[f64], out: &mut HitBuffer<Space>) {
+        self.0.hits(x, reach, out);
+    }
+    fn outline(&self, low: DVec3, high: DVec3) -> Vec<[DVec3; 2]> {
+        self.0.outline(low, high)
+    }
+    fn bounds(&self) -> Option<[DVec3; 2]> {
+        self.0.bounds()
+    }
+}
+
+#[test]
+fn grains_that_sleep_near_a_moving_body_wake_in_time() {
+    // A bar that turns through the falling block and shakes along its axis.
+    let bar = Cuboid::<Space>::new(
+        DVec3::new(-8.0, 4.0, -1.0) * D,
+        DVec3::new(8.0, 9.0, 1.0) * D,
+    )
+    .unwrap();
+    let motion = Motion {
+        shifts: vec![Shift {
+            direction: DVec3::Y,
+            course: Course::Swing {
+                amplitude: 0.5 * D,
+                frequency: 40.0,
+            },
+            span: Span::ALWAYS,
+        }],
+        ..turning(DVec3::ZERO, 12.0)
+    };
+    let run = |surface: Arc<dyn Surface<Space>>, scheme: Scheme| {
+        let body = Body {
+            surface,
+            ..plane(DVec3::Z, 0.4, motion.clone())
+        };
+        let mut world = world(body, block(), 9.8, USUAL, scheme, 1);
+        world.advance(4000);
+        world
+    };
+    for scheme in [
+        Scheme::SymplecticEuler,
+        Scheme::VerletOld,
+        Scheme::VerletAveraged { sweeps: 4 },
+    ] {
+        let (asleep, awake) = (
+            run(Arc::new(bar), scheme),
+            run(Arc::new(Restless(bar)), scheme),
+        );
+        let pushed = asleep.energies().work_of_bodies.abs();
+        assert!(
+            pushed > 1e-7 && pushed.is_finite(),
+            "the bar works: {pushed}"
+        );
+        for i in 0..asleep.len() {
+            assert_eq!(asleep.position(i), awake.position(i), "{scheme:?}");
+        }
     }
 }

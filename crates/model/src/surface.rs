@@ -41,7 +41,12 @@ pub struct Shell {
 pub trait Surface<D: Dim>: Send + Sync {
     /// A distance that the true one is not below; cheap. Far grains are skipped by it.
     fn lower_bound(&self, x: D::V) -> f64;
-    /// Every place within `reach[i]` of point `x[i]`, appended to `out`.
+    /// How far in m the point may move before [`hits`](Self::hits) can find it within `reach`: at most what
+    /// it may, and negative if it may not move at all. A grain sleeps so long.
+    fn room(&self, x: D::V, reach: f64) -> f64 {
+        self.lower_bound(x) - reach
+    }
+    /// Every place within `reach[i]` of point `x[i]`, appended to `out` in the order of the points.
     fn hits(&self, x: &[D::V], reach: &[f64], out: &mut HitBuffer<D>);
     /// Outline to draw, as three-dimensional line segments within the box `low`–`high`.
     fn outline(&self, low: glam::DVec3, high: glam::DVec3) -> Vec<[glam::DVec3; 2]>;

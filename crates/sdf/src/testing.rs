@@ -119,6 +119,7 @@ pub fn examine<D: Dim>(
         checks::batch(&trial),
         checks::lipschitz(&trial),
         checks::bound(&trial),
+        checks::room(&trial),
         checks::sign(&trial),
         checks::gradient(&trial),
         checks::foot(&trial),

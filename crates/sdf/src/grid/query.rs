@@ -184,6 +184,21 @@ impl Surface<Space> for DistanceGrid {
         }
     }
 
+    /// What the bound leaves; or, where the interpolant decides, what it does: along each axis it changes by at
+    /// most the way gone, so by √3 times the way at most.
+    fn room(&self, x: DVec3, reach: f64) -> f64 {
+        let Some(cell) = self.cell_of(x) else {
+            return self.lower_bound(x) - reach;
+        };
+        let value = cell.value_and_slope().0;
+        let rounding = 2e-7 * (value.abs() + 2.0 * self.nodes.cell);
+        let bounded = value - self.nodes.cell * cell.doubt() - rounding - reach;
+        if self.exact.is_some() {
+            return bounded;
+        }
+        bounded.max((value - rounding - reach) / 3f64.sqrt())
+    }
+
     fn hits(&self, x: &[DVec3], reach: &[f64], out: &mut HitBuffer<Space>) {
         for (of, (&x, &reach)) in x.iter().zip(reach).enumerate() {
             if let Some((distance, normal)) = self.touch(x, reach) {

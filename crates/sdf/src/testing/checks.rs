@@ -142,6 +142,28 @@ pub(super) fn bound<D: Dim>(trial: &Trial<D>) -> Worst {
     worst
 }
 
+pub(super) fn room<D: Dim>(trial: &Trial<D>) -> Worst {
+    let mut worst = Worst::of(Check::Room);
+    for (k, &x) in trial.points.iter().enumerate() {
+        let k = k as u64;
+        let reach = trial.options.reach.min(0.1 * trial.size) * chance(k, 94);
+        let room = trial.surface.room(x, reach);
+        if room <= trial.slack {
+            continue;
+        }
+        // To the very end of the room, in any direction and straight towards the surface.
+        let ways = (0..6).map(|w| trial.direction(10 * k + w));
+        let straight = trial.hits(x, reach + 2.0 * room);
+        for way in ways.chain(straight.first().map(|h| -h.normal)) {
+            let y = x + way * (room - trial.slack);
+            worst.demand(trial.hits(y, reach).is_empty(), || {
+                format!("at {x:?} the room is {room} m for a reach of {reach} m, but {y:?} is hit")
+            });
+        }
+    }
+    worst
+}
+
 pub(super) fn sign<D: Dim>(trial: &Trial<D>) -> Worst {
     let mut worst = Worst::of(Check::Sign);
     let Some(inside) = trial.options.inside else {

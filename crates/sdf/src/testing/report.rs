@@ -17,6 +17,8 @@ pub enum Check {
     Lipschitz,
     /// The lower bound is not above the distance.
     Bound,
+    /// Within the room that a surface grants there is no hit.
+    Room,
     /// The distance is negative inside the body and only there (only with an oracle).
     Sign,
     /// Away from creases the normal is the gradient of the distance.
@@ -39,6 +41,7 @@ impl Check {
             Self::Batch => "many points at once give what each gives alone",
             Self::Lipschitz => "the distance changes by at most the way gone",
             Self::Bound => "`lower_bound` is not above the distance",
+            Self::Room => "no hit is nearer than `room` says",
             Self::Sign => "the distance is negative inside and only there",
             Self::Gradient => "the normal is the gradient of the distance",
             Self::Foot => "x − normal·distance lies on the surface",
