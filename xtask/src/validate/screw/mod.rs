@@ -43,18 +43,43 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     }
     let compared = comparisons(report, &base, &one[0], &all)?;
     report.progress(&format!("{compared} comparisons at n = 4"));
-    let speeds: Vec<Case> = SPEEDS.iter().map(|&rpm| Case::of(3, rpm)).collect();
-    all(&speeds[2..3])?;
-    let measured = all(&speeds)?;
-    for (case, measured) in speeds.iter().zip(&measured) {
+    // The long ones start in the flow of these two, whose tubes are full.
+    let at_centres = |case: Case| Case {
+        at_centres: true,
+        ..case
+    };
+    all(&[Case::of(3, 60.0), at_centres(Case::of(3, 60.0))])?;
+    report.progress("60 r/min at n = 3, both readings of the walls");
+    let mut cases: Vec<Case> = SPEEDS.iter().map(|&rpm| Case::of(3, rpm)).collect();
+    cases.extend([60.0, 100.0].map(|rpm| at_centres(Case::of(3, rpm))));
+    let measured = all(&cases)?;
+    for (case, measured) in cases.iter().zip(&measured) {
         identities(report, case, measured);
     }
-    against_speed(report, &measured)
+    let (surface, centre) = measured.split_at(SPEEDS.len());
+    for (rpm, centre) in [60.0, 100.0].into_iter().zip(centre) {
+        let surface = SPEEDS.iter().position(|&s| s == rpm).map(|k| &surface[k]);
+        if let Some(surface) = surface {
+            offsets(report, rpm, surface, centre);
+        }
+    }
+    against_speed(report, surface)
+}
+
+/// The two readings of where a grain touches a wall, at n = 3.
+fn offsets(report: &mut Report, rpm: f64, surface: &Measured, centre: &Measured) {
+    let ((a, da), (b, db)) = (surface.get("mass_rate"), centre.get("mass_rate"));
+    report.tell(
+        format!("n = 3, {rpm} r/min: rate with s = R over that with s = R + d/2"),
+        b / a,
+        &format!("± {:.3}", b / a * (da / a).hypot(db / b)),
+    );
 }
 
 /// What must hold in any feeder.
 fn identities(report: &mut Report, case: &Case, measured: &Measured) {
-    let name = format!("n = {}, {} r/min", case.coarse, case.rpm);
+    let reading = if case.at_centres { ", s = R" } else { "" };
+    let name = format!("n = {}, {} r/min{reading}", case.coarse, case.rpm);
     let (rate, rate_error) = measured.get("mass_rate");
     let (section, section_error) = measured.get("mass_rate_from_section");
     report.check(

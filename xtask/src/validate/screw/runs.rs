@@ -85,10 +85,19 @@ impl Case {
 
     /// Seconds from the start of the screw: until the tube is full (its length over p n, a tenth slower),
     /// then four turns (three where they are slow), since the rate swings once a turn, and one second for
-    /// grains to fall out.
+    /// grains to fall out. From a full tube: one turn to become even, then as many turns.
     pub fn until(&self) -> f64 {
         let turns = if self.rpm < 50.0 { 3.0 } else { 4.0 };
-        (103.0 + 60.0 * turns) / self.rpm + 1.0
+        match self.flow() {
+            Some(_) => 60.0 * (1.0 + turns) / self.rpm + 0.1,
+            None => (103.0 + 60.0 * turns) / self.rpm + 1.0,
+        }
+    }
+
+    /// The run in whose flow this one starts, where runs are long: the same feeder at 60 r/min. Its tube is
+    /// full, its screw where it was at the start; the grains start at rest.
+    fn flow(&self) -> Option<Self> {
+        (self.coarse < 4 && self.rpm != 60.0).then_some(Self { rpm: 60.0, ..*self })
     }
 
     fn sets(&self) -> Vec<String> {
@@ -108,7 +117,7 @@ impl Case {
         sets
     }
 
-    fn file(&self, root: &Path, fingerprint: u64) -> PathBuf {
+    fn file(&self, root: &Path, fingerprint: u64, what: &str) -> PathBuf {
         let Case {
             coarse,
             rpm,
@@ -120,7 +129,7 @@ impl Case {
         } = self;
         let place = if *at_centres { "centre" } else { "surface" };
         root.join(format!(
-            "target/validate/screw/{fingerprint:016x}-n{coarse}-{rpm}rpm-s{soften}-t{tangential}-mu{friction}-{place}-{kind:?}-{:.2}s.csv",
+            "target/validate/screw/{fingerprint:016x}-n{coarse}-{rpm}rpm-s{soften}-t{tangential}-mu{friction}-{place}-{kind:?}-{:.2}s{what}.csv",
             self.until()
         ))
     }
@@ -147,13 +156,21 @@ impl Case {
 
     /// What the run measured, from the folder of finished runs or run now.
     pub fn measured(&self, root: &Path, fingerprint: u64) -> Result<Measured, String> {
-        let file = self.file(root, fingerprint);
+        let file = self.file(root, fingerprint, "");
         if let Some(measured) = std::fs::read_to_string(&file).ok().and_then(|t| read(&t)) {
             return Ok(measured);
         }
         let mut sets = self.sets();
-        let bed = self.bed(root, fingerprint)?;
-        sets.extend(from_places(self.coarse, 0.1257, &bed));
+        let start = if let Some(flow) = self.flow() {
+            // Nobody waits for grains that are on their way.
+            sets.push("still.for_at_least=1 ms".to_owned());
+            sets.push("still.at_most=2 ms".to_owned());
+            flow.measured(root, fingerprint)?;
+            flow.file(root, fingerprint, FLOW)
+        } else {
+            self.bed(root, fingerprint)?
+        };
+        sets.extend(from_places(self.coarse, 0.1257, &start));
         if self.tangential != 1.0 {
             let gamma = 0.1257 * f64::from(1u32 << self.coarse).powi(2);
             sets.push(format!(
@@ -164,12 +181,25 @@ impl Case {
         let source = changed(&root.join(SCENE), &sets)?;
         let built = build_on_one_thread(&source)?;
         let (mut run, dt) = (built.simulation, built.plan.constants.dt);
-        // A look every 10 ms: sixty and more in a turn.
+        // A look every 10 ms: forty and more in a turn; the flow is kept when the last whole turn is over.
         let each = (0.01 / dt).round() as u64;
+        let turns = (self.until() * self.rpm / 60.0).floor() * 60.0 / self.rpm;
         run.look();
         while !run.is_over() {
-            run.advance(each - run.steps() % each);
-            run.look();
+            let to_look = each - run.steps() % each;
+            let to_turn = run.released_at().map_or(u64::MAX, |start| {
+                ((start + turns - run.time()) / dt).round() as u64
+            });
+            run.advance(match to_turn {
+                0 => to_look,
+                _ => to_look.min(to_turn),
+            });
+            if to_turn > 0 && to_turn <= to_look {
+                keep(&self.file(root, fingerprint, FLOW), &places(&*run))?;
+            }
+            if run.steps() % each == 0 {
+                run.look();
+            }
         }
         if run.stop() != Some(tsubu_assemble::Stop::Over) {
             return Err(format!("{self:?}: {:?}", run.stop()));
@@ -183,6 +213,9 @@ impl Case {
         read(&text).ok_or_else(|| format!("{self:?}: its results do not read back"))
     }
 }
+
+/// Ends the name of the file with the places of the grains after the last whole turn.
+const FLOW: &str = "-flow";
 
 /// The shipped scene.
 const SCENE: &str = "scenarios/screw_feeder.ron";
