@@ -4,6 +4,7 @@
 //! leaves is what the tube holds times its axial speed. The rate itself has no closed form; Q = a A p n ρb is
 //! a definition of a, and how near a is to 1 is what the charts say.
 
+mod cost;
 mod plug;
 mod runs;
 
@@ -63,6 +64,8 @@ pub fn run(report: &mut Report) -> Result<(), String> {
             offsets(report, rpm, surface, centre);
         }
     }
+    report.progress("all speeds at n = 3");
+    cost::run(report, &root, print)?;
     against_speed(report, surface)
 }
 
@@ -135,13 +138,6 @@ fn comparisons(
     all: &impl Fn(&[Case]) -> Result<Vec<Measured>, String>,
 ) -> Result<usize, String> {
     let cases = [
-        (
-            "screw as triangles",
-            Case {
-                kind: Kind::Triangles,
-                ..*base
-            },
-        ),
         (
             "screw as an analytic surface",
             Case {

@@ -10,6 +10,7 @@ use crate::validate::scenes::{
 use std::fmt::Write as _;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
+use tsubu_scene::Source;
 
 /// What the screw is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +24,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    fn shape(self) -> &'static str {
+    /// The shape as a scene says it.
+    pub fn shape(self) -> &'static str {
         match self {
             Kind::Grid => {
                 "Mesh(file: \"meshes/screw.stl\", unit: \"mm\", surface: Grid(cell: \"2 mm\"))"
@@ -154,12 +156,13 @@ impl Case {
         Ok(file)
     }
 
-    /// What the run measured, from the folder of finished runs or run now.
-    pub fn measured(&self, root: &Path, fingerprint: u64) -> Result<Measured, String> {
-        let file = self.file(root, fingerprint, "");
-        if let Some(measured) = std::fs::read_to_string(&file).ok().and_then(|t| read(&t)) {
-            return Ok(measured);
-        }
+    /// The scene of the run with all its changes; the run in whose flow it starts is made if need be.
+    pub fn prepared(
+        &self,
+        root: &Path,
+        fingerprint: u64,
+        more: &[String],
+    ) -> Result<Source, String> {
         let mut sets = self.sets();
         let start = if let Some(flow) = self.flow() {
             // Nobody waits for grains that are on their way.
@@ -178,8 +181,17 @@ impl Case {
                 gamma * self.tangential
             ));
         }
-        let source = changed(&root.join(SCENE), &sets)?;
-        let built = build_on_one_thread(&source)?;
+        sets.extend_from_slice(more);
+        changed(&root.join(SCENE), &sets)
+    }
+
+    /// What the run measured, from the folder of finished runs or run now.
+    pub fn measured(&self, root: &Path, fingerprint: u64) -> Result<Measured, String> {
+        let file = self.file(root, fingerprint, "");
+        if let Some(measured) = std::fs::read_to_string(&file).ok().and_then(|t| read(&t)) {
+            return Ok(measured);
+        }
+        let built = build_on_one_thread(&self.prepared(root, fingerprint, &[])?)?;
         let (mut run, dt) = (built.simulation, built.plan.constants.dt);
         // A look every 10 ms: forty and more in a turn; the flow is kept when the last whole turn is over.
         let each = (0.01 / dt).round() as u64;
