@@ -3,6 +3,7 @@
 use crate::constants::Constants;
 use crate::flow::{InletGate, OutletGate};
 use crate::gate::WallChanges;
+use crate::in_box::bodies_stay;
 use crate::plan::Plan;
 use crate::simulation::{Release, Running, Simulation};
 use crate::start;
@@ -84,6 +85,7 @@ fn in_dimension<D: Shaped + Slices>(
     let surfaces = (0..checked.scene.walls.len())
         .map(|wall| D::surface(&shapes, wall))
         .collect::<Result<Vec<_>, _>>()?;
+    bodies_stay::<D>(checked, &surfaces, &domain, constants.dt)?;
     let grains = start::grains::<D>(checked, &constants, &domain, &surfaces)?;
     let threads = choices
         .threads

@@ -154,6 +154,9 @@ fn a_hit_beyond_the_reach_is_caught() {
 fn a_bound_above_the_distance_is_caught() {
     let report = tried(|_, _, _| (), |b| b + 1e-6);
     assert!(report.fails(Check::Bound), "{report}");
+    // Room for a move follows from the bound, so a grain would sleep too long.
+    let report = tried(|_, _, _| (), |b| b + 1e-3);
+    assert!(report.fails(Check::Room), "{report}");
 }
 
 #[test]
