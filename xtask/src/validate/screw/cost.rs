@@ -13,7 +13,7 @@ const STEPS: u64 = 500;
 
 /// Out of every grain's sight: a wall that is never asked.
 /// On the axis, so that turning moves it no faster than grains.
-const AWAY: &str = "Ball(center: (\"-90 m\", \"0 m\", \"0 m\"), radius: \"1 mm\")";
+const AWAY: &str = "Ball(centre: (\"-90 m\", \"0 m\", \"0 m\"), radius: \"1 mm\")";
 
 /// One way to say the walls, and the ns that a grain-step takes with it.
 struct Way {
