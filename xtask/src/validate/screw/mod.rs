@@ -45,14 +45,10 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     let compared = comparisons(report, &base, &one[0], &all)?;
     report.progress(&format!("{compared} comparisons at n = 4"));
     // The long ones start in the flow of these two, whose tubes are full.
-    let at_centres = |case: Case| Case {
-        at_centres: true,
-        ..case
-    };
-    all(&[Case::of(3, 60.0), at_centres(Case::of(3, 60.0))])?;
+    all(&[Case::of(3, 60.0), Case::of(3, 60.0).touching_at_centres()])?;
     report.progress("60 r/min at n = 3, both readings of the walls");
     let mut cases: Vec<Case> = SPEEDS.iter().map(|&rpm| Case::of(3, rpm)).collect();
-    cases.extend([60.0, 100.0].map(|rpm| at_centres(Case::of(3, rpm))));
+    cases.extend([60.0, 100.0].map(|rpm| Case::of(3, rpm).touching_at_centres()));
     let measured = all(&cases)?;
     for (case, measured) in cases.iter().zip(&measured) {
         identities(report, case, measured);
@@ -181,11 +177,15 @@ fn comparisons(
             },
         ),
         (
-            "walls touched at the centre, s = R",
+            "a sixth fewer grains",
             Case {
-                at_centres: true,
+                fill: 0.26,
                 ..*base
             },
+        ),
+        (
+            "walls touched at the centre, s = R, and a sixth fewer grains",
+            base.touching_at_centres(),
         ),
     ];
     let measured = all(&cases.map(|c| c.1))?;

@@ -53,6 +53,8 @@ pub struct Case {
     pub friction: f64,
     /// Grains touch walls at their centres (the literal reading), not at their surface.
     pub at_centres: bool,
+    /// Solid fraction of the random fill, before it falls.
+    pub fill: f64,
     /// What the screw is made of.
     pub kind: Kind,
 }
@@ -81,8 +83,28 @@ impl Case {
             tangential: 1.0,
             friction: 0.413,
             at_centres: false,
+            fill: FILL,
             kind: Kind::Grid,
         }
+    }
+
+    /// The same with grains that touch walls at their centres. Their room is a radius narrower all round, so no more
+    /// than this can be placed at random.
+    pub fn touching_at_centres(self) -> Self {
+        Self {
+            at_centres: true,
+            fill: 0.26,
+            ..self
+        }
+    }
+
+    /// How the walls are read and how many grains there are, as names of files say it.
+    fn place(&self) -> String {
+        let place = if self.at_centres { "centre" } else { "surface" };
+        if self.fill == FILL {
+            return place.to_owned();
+        }
+        format!("{place}-{}", self.fill)
     }
 
     /// Seconds from the start of the screw: until the tube is full (its length over p n, a tenth slower),
@@ -111,6 +133,9 @@ impl Case {
             format!("time.until={} s", self.until()),
             "still.at_most=10 s".to_owned(),
         ];
+        if self.fill != FILL {
+            sets.push(format!("initial.fill.solid_fraction={}", self.fill));
+        }
         let centre = if self.at_centres { "Centre" } else { "Surface" };
         for wall in ["screw", "casing", "hopper"] {
             sets.push(format!("walls.{wall}.friction={}", self.friction));
@@ -126,10 +151,10 @@ impl Case {
             soften,
             tangential,
             friction,
-            at_centres,
             kind,
+            ..
         } = self;
-        let place = if *at_centres { "centre" } else { "surface" };
+        let place = self.place();
         root.join(format!(
             "target/validate/screw/{fingerprint:016x}-n{coarse}-{rpm}rpm-s{soften}-t{tangential}-mu{friction}-{place}-{kind:?}-{:.2}s{what}.csv",
             self.until()
@@ -138,14 +163,15 @@ impl Case {
 
     /// Places of the settled grains, made once for each level and reading of the walls.
     fn bed(&self, root: &Path, fingerprint: u64) -> Result<PathBuf, String> {
-        let place = if self.at_centres { "centre" } else { "surface" };
         let file = root.join(format!(
-            "target/validate/screw/{fingerprint:016x}-n{}-{place}-bed.csv",
-            self.coarse
+            "target/validate/screw/{fingerprint:016x}-n{}-{}-bed.csv",
+            self.coarse,
+            self.place()
         ));
         if !file.exists() {
             let settling = Case {
                 at_centres: self.at_centres,
+                fill: self.fill,
                 ..Case::of(self.coarse, 60.0)
             };
             let source = changed(&root.join(SCENE), &settling.sets())?;
@@ -228,6 +254,9 @@ impl Case {
 
 /// Ends the name of the file with the places of the grains after the last whole turn.
 const FLOW: &str = "-flow";
+
+/// The shipped scene's solid fraction of the random fill.
+const FILL: f64 = 0.31;
 
 /// The shipped scene.
 const SCENE: &str = "scenarios/screw_feeder.ron";
