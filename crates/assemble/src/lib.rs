@@ -34,6 +34,7 @@ mod constants;
 mod fill;
 mod flow;
 mod gate;
+mod observers;
 mod plan;
 mod random;
 mod simulation;

@@ -22,16 +22,17 @@ const LENGTH: f64 = 0.3;
 fn options() -> ConveyingOptions {
     ConveyingOptions {
         screw: 1,
-        outlet: 1,
+        outlet: Some(1),
         point: DVec3::new(0.1, 0.0, 0.0),
         direction: DVec3::X * 2.0,
         section: (0.3, 0.3 + LENGTH),
         along: (0.0, 0.9),
+        period: None,
         pitch: PITCH,
         outer: 0.205,
         shaft: 0.055,
         casing: 0.2296,
-        hopper: [DVec3::new(0.0, -0.12, 0.5), DVec3::new(0.24, 0.12, 0.74)],
+        hopper: Some([DVec3::new(0.0, -0.12, 0.5), DVec3::new(0.24, 0.12, 0.74)]),
         density: DENSITY,
     }
 }

@@ -130,7 +130,9 @@ fn measures_know_their_wall_and_their_outlet() {
     let scene = good(&[]);
     let conveying = scene.measures.conveying.expect("it is asked for");
     assert_eq!(scene.walls[conveying.screw].name, "screw");
-    assert_eq!(scene.outlets[conveying.outlet].name, "outlet");
+    let outlet = conveying.outlet.expect("it feeds one");
+    assert_eq!(scene.outlets[outlet].name, "outlet");
+    assert!(conveying.hopper.is_some());
     assert_eq!(conveying.section, [0.33, 0.54]);
     assert_eq!(scene.outlets[0].then, Fate::Delete);
     assert!(matches!(scene.outlets[1].then, Fate::Recycle(region) if region.min.z == 0.7));
