@@ -15,8 +15,8 @@ use tsubu_engine::{
 };
 use tsubu_measure::Slices;
 use tsubu_model::{
-    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, Still,
-    Surface, Turn, Vector,
+    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, Still, Surface, Turn,
+    Vector,
 };
 use tsubu_scene as scene;
 use tsubu_scene::{Axis, Checked, Removal, SceneError};

@@ -172,7 +172,12 @@ impl<'a, D: Dim> Room<'a, D> {
     }
 
     /// Moves a grain at random, not up, if it has room there.
-    fn sink(&mut self, grain: usize, draw: impl Fn(usize) -> f64, free: &mut dyn FnMut(D::V) -> bool) {
+    fn sink(
+        &mut self,
+        grain: usize,
+        draw: impl Fn(usize) -> f64,
+        free: &mut dyn FnMut(D::V) -> bool,
+    ) {
         let old = self.placed[grain];
         let step = SINK * self.diameter;
         let new = D::V::from_axes(|a| {

@@ -89,4 +89,3 @@ pub(crate) fn observers_of<D: Slices>(
     observers.push(Box::new(Loads::new(movers.to_vec())));
     observers
 }
-

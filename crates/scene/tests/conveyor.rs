@@ -140,6 +140,34 @@ fn measures_know_their_wall_and_their_outlet() {
 }
 
 #[test]
+fn a_stretch_that_repeats_has_neither_outlet_nor_hopper() {
+    let section = |domain: &str, length: &str| {
+        short(&format!(
+            r#"domain: ({domain}), walls: [(
+                name: "screw",
+                shape: Screw(
+                    from: ("-1 m", "0 m", "0 m"), to: ("2 m", "0 m", "0 m"),
+                    shaft: "5 cm", outer: "20 cm", pitch: "15 cm", thickness: "6 mm",
+                ),
+                motion: (turn: (point: ("0 m", "0 m", "0 m"), axis: (-1, 0, 0), rate: "60 rpm")),
+            )],
+            measures: (conveying: (
+                screw: "screw", pitch: "15 cm", outer: "20 cm", shaft: "5 cm", casing: "23 cm",
+                section: ("0 m", "{length}"),
+            )),"#
+        ))
+    };
+    let scene = section(r#"x: Periodic("15 cm")"#, "15 cm").unwrap_or_else(|e| panic!("{e}"));
+    let conveying = scene.measures.conveying.expect("it is asked for");
+    assert_eq!((conveying.outlet, conveying.hopper), (None, None));
+    assert_eq!(conveying.period(&scene.walls[0], &scene.domain), Some(0.15));
+    // Across the screw a period does not matter.
+    let across = section(r#"y: Periodic("15 cm")"#, "16 cm").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(conveying.period(&across.walls[0], &across.domain), None);
+    assert!(section(r#"x: Periodic("15 cm")"#, "16 cm").is_err());
+}
+
+#[test]
 fn each_field_can_be_set() {
     let turn = good(&["walls.screw.motion.turn.rate=30 rpm"]).walls[6]
         .motion

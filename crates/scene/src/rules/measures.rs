@@ -39,8 +39,7 @@ impl Rules<'_> {
         let screw = self.found(&path("screw"), "wall", &raw.screw, names);
         let names = outlets.iter().map(|outlet| outlet.name.as_str());
         let outlet = raw.outlet.as_ref();
-        let outlet =
-            outlet.and_then(|outlet| self.found(&path("outlet"), "outlet", outlet, names));
+        let outlet = outlet.and_then(|outlet| self.found(&path("outlet"), "outlet", outlet, names));
         let conveying = Conveying {
             screw: screw.unwrap_or(0),
             pitch: self.above_zero(&path("pitch"), "the pitch", raw.pitch.0),

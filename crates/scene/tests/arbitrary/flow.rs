@@ -60,7 +60,9 @@ pub fn conveying() -> impl Strategy<Value = Conveying> {
 
 /// The measure of one of these walls, which turns, and of one of so many outlets, if any; `None` without a wall.
 pub fn fitting(mut measure: Conveying, walls: &[Wall], outlets: usize) -> Option<Conveying> {
-    measure.outlet = measure.outlet.and_then(|number| number.checked_rem(outlets));
+    measure.outlet = measure
+        .outlet
+        .and_then(|number| number.checked_rem(outlets));
     measure.screw = walls.iter().position(|wall| {
         let turn = wall.motion.as_ref().and_then(|motion| motion.turn);
         turn.is_some_and(|turn| turn.rate != 0.0)

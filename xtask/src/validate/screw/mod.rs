@@ -4,17 +4,20 @@
 //! leaves is what the tube holds times its axial speed. The rate itself has no closed form; Q = a A p n ρb is
 //! a definition of a, and how near a is to 1 is what the charts say.
 
+mod kept;
+mod ladder;
 mod plug;
 mod runs;
 
 use super::check::Tolerance;
 use super::report::Report;
+use kept::Measured;
 use rayon::prelude::*;
-use runs::{Case, Kind, Measured, fingerprint};
+use runs::{Case, Kind, fingerprint};
 use tsubu_picture::Figure;
 
-/// Seven speeds at n = 3 and the cheaper comparisons at n = 4.
-pub const FULL_GRAIN_STEPS: f64 = 1.2e11;
+/// Seven speeds at n = 3, the cheaper comparisons at n = 4, and the ladder.
+pub const FULL_GRAIN_STEPS: f64 = 1.2e11 + ladder::GRAIN_STEPS;
 
 /// Paper A's speeds, r/min (fig. 8).
 const SPEEDS: [f64; 7] = [20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0];
@@ -38,6 +41,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     let base = Case::of(4, 60.0);
     let one = all(&[base])?;
     identities(report, &base, &one[0]);
+    ladder::run(report, &one[0])?;
     if !report.full() {
         return Ok(());
     }
@@ -49,6 +53,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     for (case, measured) in speeds.iter().zip(&measured) {
         identities(report, case, measured);
     }
+    ladder::feeder(report, &measured[2], &one[0]);
     against_speed(report, &measured)
 }
 
@@ -183,6 +188,9 @@ fn comparisons(
             ratio,
             "",
         );
+    }
+    if let Some(at_centres) = measured.last() {
+        ladder::offsets_of_feeder(report, base.coarse, one, at_centres);
     }
     Ok(cases.len())
 }

@@ -1,14 +1,11 @@
 //! One run of the feeder after another: the shipped scene with other levels, speeds, stiffnesses and screws.
 //!
-//! The bed is settled once for each level and started from file; a finished run is kept in
-//! `target/validate/screw/`, so that the long version can be stopped and taken up again. Its name holds a
-//! fingerprint of the physics, so a change of the code, of the scene or of its meshes starts anew.
+//! The bed is settled once for each level and started from file; a finished run is kept ([`super::kept`]).
 
+use super::kept::{self, Measured};
 use crate::validate::scenes::{
     build_on_one_thread, changed, from_places, keep, places, until_released,
 };
-use std::fmt::Write as _;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// What the screw is made of.
@@ -53,20 +50,6 @@ pub struct Case {
     pub at_centres: bool,
     /// What the screw is made of.
     pub kind: Kind,
-}
-
-/// What a run measured: name, value, uncertainty (NaN if there is none).
-#[derive(Clone, Debug)]
-pub struct Measured(Vec<(String, f64, f64)>);
-
-impl Measured {
-    /// Value and uncertainty by name; NaN if it was not measured.
-    pub fn get(&self, name: &str) -> (f64, f64) {
-        self.0
-            .iter()
-            .find(|r| r.0 == name)
-            .map_or((f64::NAN, f64::NAN), |r| (r.1, r.2))
-    }
 }
 
 impl Case {
@@ -148,7 +131,7 @@ impl Case {
     /// What the run measured, from the folder of finished runs or run now.
     pub fn measured(&self, root: &Path, fingerprint: u64) -> Result<Measured, String> {
         let file = self.file(root, fingerprint);
-        if let Some(measured) = std::fs::read_to_string(&file).ok().and_then(|t| read(&t)) {
+        if let Some(measured) = Measured::kept(&file) {
             return Ok(measured);
         }
         let mut sets = self.sets();
@@ -162,65 +145,14 @@ impl Case {
             ));
         }
         let source = changed(&root.join(SCENE), &sets)?;
-        let built = build_on_one_thread(&source)?;
-        let (mut run, dt) = (built.simulation, built.plan.constants.dt);
-        // A look every 10 ms: sixty and more in a turn.
-        let each = (0.01 / dt).round() as u64;
-        run.look();
-        while !run.is_over() {
-            run.advance(each - run.steps() % each);
-            run.look();
-        }
-        if run.stop() != Some(tsubu_assemble::Stop::Over) {
-            return Err(format!("{self:?}: {:?}", run.stop()));
-        }
-        let mut text = String::new();
-        for reading in run.report() {
-            let uncertainty = reading.uncertainty.unwrap_or(f64::NAN);
-            let _ = writeln!(text, "{},{:?},{uncertainty:?}", reading.name, reading.value);
-        }
-        keep(&file, &text)?;
-        read(&text).ok_or_else(|| format!("{self:?}: its results do not read back"))
+        Measured::of_run(&source, &file)
     }
 }
 
 /// The shipped scene.
 const SCENE: &str = "scenarios/screw_feeder.ron";
 
-fn read(text: &str) -> Option<Measured> {
-    let line = |line: &str| {
-        let mut words = line.split(',');
-        Some((
-            words.next()?.to_owned(),
-            words.next()?.parse().ok()?,
-            words.next()?.parse().ok()?,
-        ))
-    };
-    text.lines()
-        .map(line)
-        .collect::<Option<Vec<_>>>()
-        .map(Measured)
-}
-
-/// The bits at n = 4 four tenths of a second after the screw has started: they change with the physics, the
-/// scene, its meshes and what is measured. A new rule for what is steady may not show so early: then the
-/// folder of kept runs is to be emptied by hand.
+/// The fingerprint of the shipped scene at n = 4.
 pub fn fingerprint(root: &Path) -> Result<u64, String> {
-    let source = changed(&root.join(SCENE), &Case::of(4, 60.0).sets())?;
-    let mut run = build_on_one_thread(&source)?.simulation;
-    until_released(&mut *run)?;
-    for _ in 0..40 {
-        run.advance(400);
-        run.look();
-    }
-    let mut hasher = DefaultHasher::new();
-    for (x, v) in run.state() {
-        for value in x.to_array().into_iter().chain(v.to_array()) {
-            value.to_bits().hash(&mut hasher);
-        }
-    }
-    for reading in run.look().into_iter().chain(run.report()) {
-        reading.value.to_bits().hash(&mut hasher);
-    }
-    Ok(hasher.finish())
+    kept::fingerprint(&changed(&root.join(SCENE), &Case::of(4, 60.0).sets())?)
 }
