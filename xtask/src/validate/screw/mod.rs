@@ -6,8 +6,10 @@
 
 mod kept;
 mod ladder;
+mod levels;
 mod plug;
 mod runs;
+mod section;
 
 use super::check::Tolerance;
 use super::report::Report;
@@ -53,7 +55,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     for (case, measured) in speeds.iter().zip(&measured) {
         identities(report, case, measured);
     }
-    ladder::feeder(report, &measured[2], &one[0]);
+    levels::feeder(report, &measured[2], &one[0]);
     against_speed(report, &measured)
 }
 
