@@ -4,6 +4,7 @@ use crate::constants::Constants;
 use crate::flow::{InletGate, OutletGate};
 use crate::gate::WallChanges;
 use crate::in_box::bodies_stay;
+use crate::observers::observers_of;
 use crate::plan::Plan;
 use crate::simulation::{Release, Running, Simulation};
 use crate::start;
@@ -13,15 +14,13 @@ use std::sync::Arc;
 use tsubu_engine::{
     Body, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally, World,
 };
-use tsubu_measure::{
-    Balance, Conveying, ConveyingOptions, Energy, Flow, Heap, HeapOptions, Loads, Slices, Structure,
-};
+use tsubu_measure::Slices;
 use tsubu_model::{
-    ContactLaw, Course, Dim, Domain, Gate, Motion, Observer, Plane, Shift, Space, Span, Still,
-    Surface, Turn, Vector,
+    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, Still, Surface, Turn,
+    Vector,
 };
 use tsubu_scene as scene;
-use tsubu_scene::{Axis, Checked, Removal, SceneError, Shape};
+use tsubu_scene::{Axis, Checked, Removal, SceneError};
 
 /// What the caller chooses about the machine, not about the physics. No choice changes a bit of the result.
 #[derive(Clone, Debug, Default)]
@@ -334,82 +333,6 @@ fn gates_of<D: Dim>(scene: &scene::Scene, constants: &Constants) -> Vec<Box<dyn 
         }));
     }
     gates
-}
-
-/// The measures of a screw conveyor; its axis points the way it feeds.
-fn conveying_of<D: Dim>(
-    scene: &scene::Scene,
-    wanted: &scene::Conveying,
-    surfaces: &[Arc<dyn Surface<D>>],
-) -> Option<Conveying> {
-    let turn = scene.walls[wanted.screw].motion.as_ref()?.turn?;
-    let section = (wanted.section[0], wanted.section[1]);
-    let ends = surfaces[wanted.screw].bounds().map(|[low, high]| {
-        let (a, b) = (
-            (low - turn.point).dot(turn.axis),
-            (high - turn.point).dot(turn.axis),
-        );
-        (a.min(b), a.max(b))
-    });
-    Some(Conveying::new(ConveyingOptions {
-        screw: wanted.screw,
-        outlet: wanted.outlet,
-        point: turn.point,
-        direction: turn.axis,
-        section,
-        along: ends.unwrap_or(section),
-        pitch: wanted.pitch,
-        outer: wanted.outer,
-        shaft: wanted.shaft,
-        casing: wanted.casing,
-        hopper: [wanted.hopper.min, wanted.hopper.max],
-        density: scene.grains.density(),
-    }))
-}
-
-fn observers_of<D: Slices>(
-    scene: &scene::Scene,
-    constants: &Constants,
-    domain: &Domain<D>,
-    surfaces: &[Arc<dyn Surface<D>>],
-    movers: &[bool],
-) -> Vec<Box<dyn Observer<D, Still>>> {
-    let mut observers: Vec<Box<dyn Observer<D, Still>>> = Vec::new();
-    let depth = (D::V::AXES == 3 && domain.is_periodic(1)).then(|| domain.period.axis(1));
-    let removed = scene.walls.iter().find(|w| w.removed != Removal::Never);
-    if let Some(removed) = removed {
-        // A wall that stays and looks along x is the back, one that looks against it the far end.
-        let upright = |sign: f64| {
-            scene.walls.iter().find_map(|w| {
-                let Shape::HalfSpace { point, outward } = &w.shape else {
-                    return None;
-                };
-                (w.removed == Removal::Never && sign * outward.x > 0.999).then_some(point.x)
-            })
-        };
-        observers.push(Box::new(Heap::new(HeapOptions {
-            diameter: constants.kind.diameter(),
-            depth,
-            back: upright(1.0).unwrap_or(0.0),
-            far: upright(-1.0),
-            release: Some(removed.name.clone()),
-            snapshots: vec![0.1, 0.2, 0.4, 0.6, 1.0, 1.4, 2.0, 3.0, 5.0],
-        })));
-    }
-    if let Some(wanted) = &scene.measures.conveying {
-        let conveying = conveying_of(scene, wanted, surfaces);
-        observers.extend(conveying.map(|c| Box::new(c) as Box<dyn Observer<D, Still>>));
-    }
-    if scene.output.energies {
-        observers.push(Box::new(Energy::new()));
-    }
-    if !scene.outlets.is_empty() || !scene.inlets.is_empty() {
-        observers.push(Box::new(Flow::new()));
-    }
-    observers.push(Box::new(Structure::new(depth)));
-    observers.push(Box::new(Balance::new()));
-    observers.push(Box::new(Loads::new(movers.to_vec())));
-    observers
 }
 
 fn as_many_as_pay(grains: usize) -> usize {

@@ -35,6 +35,7 @@ mod fill;
 mod flow;
 mod gate;
 mod in_box;
+mod observers;
 mod plan;
 mod random;
 mod simulation;

@@ -56,6 +56,7 @@ impl Conveying {
         let steady = f64::from(u8::from(part.steady_from.is_some()));
         report.push(Reading::new("steady", steady, "1"));
         report.push(Reading::new("turns", last.turns.abs(), "rev"));
+        self.keep_known(&mut report);
         report
     }
 
@@ -107,6 +108,9 @@ impl Conveying {
         curves.push(curve("fill", "measured", axes, &middles, fill));
         // What was not measured, such as a theory without a hopper, is not drawn.
         curves.retain(|curve| curve.y.iter().any(|y| y.is_finite()));
+        if o.outlet.is_none() {
+            curves.retain(|curve| curve.figure != "outlet_mass");
+        }
         curves
     }
 
@@ -116,7 +120,8 @@ impl Conveying {
         let half = &self.looks[self.looks.len() / 2..];
         let (a, b) = (half.first()?, half.last()?);
         let turn = over(b.time - a.time, (b.turns - a.turns).abs());
-        if !turn.is_finite() {
+        // What passes a section that repeats does not swing with the turns.
+        if !turn.is_finite() || self.options.outlet.is_none() {
             return Steady::of_count(time, mass);
         }
         let section: Vec<f64> = self.looks.iter().map(|look| look.section.mass).collect();

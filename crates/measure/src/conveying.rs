@@ -14,8 +14,9 @@ const BINS_PER_PITCH: f64 = 4.0;
 pub struct ConveyingOptions {
     /// Number of the body that is the screw, in the order of the scene.
     pub screw: usize,
-    /// Number of the outlet among the passages of the view.
-    pub outlet: usize,
+    /// Number of the outlet among the passages of the view; `None` for a stretch without one, whose rate is that of the
+    /// section.
+    pub outlet: Option<usize>,
     /// A point of the axis; places along the axis are counted from it.
     pub point: DVec3,
     /// Direction in which the screw conveys; any length but zero.
@@ -24,6 +25,8 @@ pub struct ConveyingOptions {
     pub section: (f64, f64),
     /// Where along the axis the profiles begin and end: the whole screw.
     pub along: (f64, f64),
+    /// Length after which the scene repeats along the axis, if it does: then neither section nor profiles are longer.
+    pub period: Option<f64>,
     /// Pitch p.
     pub pitch: f64,
     /// Outer diameter of the flight Ds.
@@ -32,8 +35,8 @@ pub struct ConveyingOptions {
     pub shaft: f64,
     /// Inner diameter of the casing.
     pub casing: f64,
-    /// Two opposite corners of a box in the hopper that stays full of grains, z up.
-    pub hopper: [DVec3; 2],
+    /// Two opposite corners of a box in the hopper that stays full of grains, z up; `None` without a hopper.
+    pub hopper: Option<[DVec3; 2]>,
     /// Density of the grains' solid in kg/m³.
     pub density: f64,
 }
@@ -86,6 +89,12 @@ impl ConveyingOptions {
 ///
 /// Figures: `outlet_mass`, `mass_rate` with the theory at a = 1 and the n_s of each look, `axial_speed` and `fill` along the axis.
 ///
+/// Without an outlet, as in a stretch of tube that repeats along the axis, nothing leaves: there is no `outlet_mass`, and the mass
+/// that has passed is the integral of Σ m v_axial/length over time, by trapezia between the looks. `mass_rate` is its slope over the
+/// steady part ([`Steady::of_count`](crate::Steady::of_count)), which need not be whole turns: turning a screw without ends is the same as
+/// shifting it along, so what the whole period holds knows no angle. Without a hopper there is no ρb, and so no
+/// `hopper_bulk_density`, `fill_ratio`, `ratio_to_theory`, nor their figures.
+///
 /// Sources: `Sumitomo2024` for the formula, `Roberts1999` for what rotation costs.
 #[derive(Clone, Debug)]
 pub struct Conveying {
@@ -101,6 +110,7 @@ pub struct Conveying {
 #[derive(Clone, Debug)]
 pub(crate) struct Look {
     pub time: f64,
+    /// Through the outlet, or without one through the section.
     pub outlet_mass: f64,
     pub mass_rate: f64,
     pub section: Load,
@@ -123,6 +133,7 @@ impl Conveying {
                 point: options.point,
                 direction: options.direction.normalize_or(DVec3::X),
                 reach: 0.5 * options.casing,
+                repeats: options.period.map(|period| (options.section.0, period)),
             },
             bins: Bins::over(options.along, options.pitch / BINS_PER_PITCH),
             looks: Vec::new(),
@@ -144,11 +155,18 @@ impl Conveying {
 
     fn look<D: Dim, S: SpinState>(&mut self, view: &dyn View<D, S>) -> Look {
         let time = view.time();
-        let outlet_mass = view
-            .passages()
-            .get(self.options.outlet)
-            .map_or(f64::NAN, |outlet| outlet.mass);
         let (section, profile) = loads(view, &self.axis, self.options.section, &self.bins);
+        let rate = section.axial / self.options.length();
+        let outlet_mass = match self.options.outlet {
+            Some(outlet) => view
+                .passages()
+                .get(outlet)
+                .map_or(f64::NAN, |outlet| outlet.mass),
+            None => self.looks.last().map_or(0.0, |last| {
+                let before = last.section.axial / self.options.length();
+                last.outlet_mass + 0.5 * (before + rate) * (time - last.time)
+            }),
+        };
         let drive = view
             .bodies()
             .get(self.options.screw)
@@ -162,7 +180,10 @@ impl Conveying {
             }),
             section,
             tangential_speed: sense * over(section.around, section.mass),
-            bulk_density: bulk_density(view, self.options.hopper),
+            bulk_density: self
+                .options
+                .hopper
+                .map_or(f64::NAN, |hopper| bulk_density(view, hopper)),
             torque: sense * drive.torque,
             power: drive.power,
             turns: self.turns(time, drive.speed, drive.angle),
@@ -176,7 +197,7 @@ impl Conveying {
         let mass = look.section.mass;
         let space = annulus(o.casing, o.shaft) * o.length();
         let nominal = o.nominal_mass(look.bulk_density, o.length());
-        vec![
+        let mut row = vec![
             Reading::new("outlet_mass", look.outlet_mass, "kg"),
             Reading::new("mass_rate", look.mass_rate, "kg/s"),
             Reading::new("section_mass", mass, "kg"),
@@ -188,7 +209,19 @@ impl Conveying {
             Reading::new("screw_torque", look.torque, "N m"),
             Reading::new("screw_power", look.power, "W"),
             Reading::new("turns", look.turns.abs(), "rev"),
-        ]
+        ];
+        self.keep_known(&mut row);
+        row
+    }
+
+    /// Leaves out what a stretch without outlet or hopper cannot say.
+    pub(crate) fn keep_known(&self, readings: &mut Vec<Reading>) {
+        const OF_THE_HOPPER: [&str; 3] = ["hopper_bulk_density", "fill_ratio", "ratio_to_theory"];
+        let (outlet, hopper) = (self.options.outlet.is_some(), self.options.hopper.is_some());
+        readings.retain(|reading| {
+            (outlet || reading.name != "outlet_mass")
+                && (hopper || !OF_THE_HOPPER.contains(&&*reading.name))
+        });
     }
 }
 

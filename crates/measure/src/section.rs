@@ -17,6 +17,8 @@ pub(crate) struct Axis {
     pub direction: DVec3,
     /// Inner radius of the casing in m.
     pub reach: f64,
+    /// From where along the axis and with what length the scene repeats, if it does.
+    pub repeats: Option<(f64, f64)>,
 }
 
 impl Axis {
@@ -24,7 +26,14 @@ impl Axis {
     fn locate(&self, x: DVec3) -> (f64, DVec3) {
         let from_point = x - self.point;
         let along = from_point.dot(self.direction);
-        (along, from_point - self.direction * along)
+        let arm = from_point - self.direction * along;
+        // Between two builds of the lists a grain may be a little outside the period.
+        let place = self.repeats.map_or(along, |(from, period)| {
+            let into = (along - from).rem_euclid(period);
+            // The remainder of a tiny negative number rounds to the period itself.
+            from + if into < period { into } else { 0.0 }
+        });
+        (place, arm)
     }
 
     /// Speed along the axis, and around it counter-clockwise seen against its direction; 0 on the axis itself.

@@ -130,11 +130,41 @@ fn measures_know_their_wall_and_their_outlet() {
     let scene = good(&[]);
     let conveying = scene.measures.conveying.expect("it is asked for");
     assert_eq!(scene.walls[conveying.screw].name, "screw");
-    assert_eq!(scene.outlets[conveying.outlet].name, "outlet");
+    let outlet = conveying.outlet.expect("it feeds one");
+    assert_eq!(scene.outlets[outlet].name, "outlet");
+    assert!(conveying.hopper.is_some());
     assert_eq!(conveying.section, [0.33, 0.54]);
     assert_eq!(scene.outlets[0].then, Fate::Delete);
     assert!(matches!(scene.outlets[1].then, Fate::Recycle(region) if region.min.z == 0.7));
     assert_eq!(scene.inlets[0].solid_fraction, 0.3);
+}
+
+#[test]
+fn a_stretch_that_repeats_has_neither_outlet_nor_hopper() {
+    let section = |domain: &str, length: &str| {
+        short(&format!(
+            r#"domain: ({domain}), walls: [(
+                name: "screw",
+                shape: Screw(
+                    from: ("-1 m", "0 m", "0 m"), to: ("2 m", "0 m", "0 m"),
+                    shaft: "5 cm", outer: "20 cm", pitch: "15 cm", thickness: "6 mm",
+                ),
+                motion: (turn: (point: ("0 m", "0 m", "0 m"), axis: (-1, 0, 0), rate: "60 rpm")),
+            )],
+            measures: (conveying: (
+                screw: "screw", pitch: "15 cm", outer: "20 cm", shaft: "5 cm", casing: "23 cm",
+                section: ("0 m", "{length}"),
+            )),"#
+        ))
+    };
+    let scene = section(r#"x: Periodic("15 cm")"#, "15 cm").unwrap_or_else(|e| panic!("{e}"));
+    let conveying = scene.measures.conveying.expect("it is asked for");
+    assert_eq!((conveying.outlet, conveying.hopper), (None, None));
+    assert_eq!(conveying.period(&scene.walls[0], &scene.domain), Some(0.15));
+    // Across the screw a period does not matter.
+    let across = section(r#"y: Periodic("15 cm")"#, "16 cm").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(conveying.period(&across.walls[0], &across.domain), None);
+    assert!(section(r#"x: Periodic("15 cm")"#, "16 cm").is_err());
 }
 
 #[test]

@@ -11,7 +11,7 @@ struct Shipped {
     files: &'static [(&'static str, &'static [u8])],
 }
 
-const SCENES: [Shipped; 3] = [
+const SCENES: [Shipped; 4] = [
     Shipped {
         name: "angle_of_repose",
         text: include_str!("../../../scenarios/angle_of_repose.ron"),
@@ -38,6 +38,14 @@ const SCENES: [Shipped; 3] = [
                 include_bytes!("../../../scenarios/meshes/fill.stl"),
             ),
         ],
+    },
+    Shipped {
+        name: "screw_section",
+        text: include_str!("../../../scenarios/screw_section.ron"),
+        files: &[(
+            "meshes/screw_section.stl",
+            include_bytes!("../../../scenarios/meshes/screw_section.stl"),
+        )],
     },
     Shipped {
         name: "screw_feeder_full",

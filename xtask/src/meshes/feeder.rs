@@ -15,6 +15,8 @@ use tsubu_sdf::{Cuboid, Hand, Misshapen, Screw, ScrewSize, Tube, steps_for};
 /// How far a chord may lie from its surface, in m: a hundredth of the flight's thickness.
 pub const CHORD: f64 = 5e-5;
 
+/// Advance of the flight per turn, in m.
+const PITCH: f64 = 0.150;
 /// Inner radius of trough and tube, in m.
 const INNER: f64 = 0.1148;
 /// Thickness of every wall.
@@ -30,13 +32,22 @@ const TOP: f64 = 1.0;
 
 /// The screw, from x = 0 to 675 mm along the x axis, right-handed.
 pub fn screw() -> Result<Screw, Misshapen> {
+    screw_between(0.0, 4.5 * PITCH)
+}
+
+/// The same screw for a section of one pitch that repeats from x = 0 on: one pitch beyond both of its ends.
+pub fn screw_section() -> Result<Screw, Misshapen> {
+    screw_between(-PITCH, 2.0 * PITCH)
+}
+
+fn screw_between(from: f64, to: f64) -> Result<Screw, Misshapen> {
     let size = ScrewSize {
         shaft: 0.0275,
         outer: 0.1025,
-        pitch: 0.150,
+        pitch: PITCH,
         thickness: 0.006,
     };
-    Screw::new(DVec3::ZERO, DVec3::X * 4.5 * 0.150, size, Hand::Right)
+    Screw::new(DVec3::X * from, DVec3::X * to, size, Hand::Right)
 }
 
 /// Trough, tube, the plate behind the inlet and the wall over the beginning of the tube.

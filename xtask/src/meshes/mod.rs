@@ -42,10 +42,12 @@ pub fn run(root: &Path) -> Result<bool, String> {
 }
 
 /// Every file: its name and its closed shells in m.
-fn files() -> Result<[(&'static str, Vec<Shell>); 6], String> {
+fn files() -> Result<[(&'static str, Vec<Shell>); 7], String> {
     let screw = feeder::screw().map_err(|e| e.to_string())?;
+    let section = feeder::screw_section().map_err(|e| e.to_string())?;
     Ok([
         ("screw", vec![screw.mesh(feeder::CHORD)]),
+        ("screw_section", vec![section.mesh(feeder::CHORD)]),
         ("casing", feeder::casing().map_err(|e| e.to_string())?),
         ("hopper", feeder::hopper().map_err(|e| e.to_string())?),
         ("fill", feeder::fill().map_err(|e| e.to_string())?),
@@ -131,9 +133,14 @@ mod tests {
         let trough = (0.5 * ring + 2.0 * 10.0 * 160.0) * 318.0;
         let end = 249.6 * (124.8 + 160.0) * 10.0;
         let over = (249.6 * 160.0 - 0.5 * PI * 119.8 * 119.8) * 10.0;
-        let flight = 0.5 * 6.0 * (102.5 * 102.5 - 27.5 * 27.5) * 2.0 * PI * (675.0 - 12.0) / 150.0;
+        let screw = |length: f64| {
+            let turns = (length - 12.0) / 150.0;
+            let flight = 0.5 * 6.0 * (102.5 * 102.5 - 27.5 * 27.5) * 2.0 * PI * turns;
+            PI * 27.5 * 27.5 * length + flight
+        };
         let expected = [
-            PI * 27.5 * 27.5 * 675.0 + flight,
+            screw(675.0),
+            screw(450.0),
             trough + ring * 232.0 + end + over,
             840.0 * 10.0 * 2.0 * (338.0 + 249.6),
             306.0 * 218.0 * 880.0,

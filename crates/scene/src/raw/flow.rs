@@ -47,6 +47,6 @@ pub(crate) struct RawConveying {
     pub shaft: Quantity<Length>,
     pub section: Pair<Quantity<Length>>,
     pub casing: Quantity<Length>,
-    pub hopper: RawRegion,
-    pub outlet: String,
+    pub hopper: Option<RawRegion>,
+    pub outlet: Option<String>,
 }

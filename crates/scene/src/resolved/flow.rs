@@ -38,11 +38,12 @@ impl Scene {
         };
         // The names that the numbers of a checked scene stand for.
         let screw = self.walls.get(conveying.screw).map(|wall| &wall.name);
-        let outlet = self.outlets.get(conveying.outlet).map(|out| &out.name);
+        let outlet = conveying.outlet.and_then(|number| self.outlets.get(number));
         writeln!(out, "    measures: (\n        conveying: (")?;
-        for (field, name) in [("screw", screw), ("outlet", outlet)] {
-            let name = name.map_or(String::new(), |name| text(name));
-            writeln!(out, "            {field}: {name},")?;
+        for (field, name) in [("screw", screw), ("outlet", outlet.map(|out| &out.name))] {
+            if let Some(name) = name {
+                writeln!(out, "            {field}: {},", text(name))?;
+            }
         }
         conveying.write_to(out)?;
         writeln!(out, "        ),\n    ),")
@@ -62,6 +63,9 @@ impl Conveying {
         }
         let section = self.section.map(length).join(", ");
         writeln!(out, "            section: ({section}),")?;
-        writeln!(out, "            hopper: ({}),", region(&self.hopper))
+        match &self.hopper {
+            Some(hopper) => writeln!(out, "            hopper: ({}),", region(hopper)),
+            None => Ok(()),
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Rules;
 use crate::raw::{RawConveying, RawMeasures};
-use crate::scene::{Conveying, Measures, Outlet, Shape, Space, Wall};
+use crate::scene::{Conveying, Domain, Measures, Outlet, Shape, Space, Wall};
 
 impl Rules<'_> {
     pub(super) fn measures(
@@ -10,16 +10,23 @@ impl Rules<'_> {
         raw: &RawMeasures,
         walls: &[Wall],
         outlets: &[Outlet],
+        domain: &Domain,
     ) -> Measures {
         Measures {
             conveying: raw
                 .conveying
                 .as_ref()
-                .map(|raw| self.conveying(raw, walls, outlets)),
+                .map(|raw| self.conveying(raw, walls, outlets, domain)),
         }
     }
 
-    fn conveying(&mut self, raw: &RawConveying, walls: &[Wall], outlets: &[Outlet]) -> Conveying {
+    fn conveying(
+        &mut self,
+        raw: &RawConveying,
+        walls: &[Wall],
+        outlets: &[Outlet],
+        domain: &Domain,
+    ) -> Conveying {
         let path = |field: &str| format!("measures.conveying.{field}");
         if self.space == Space::Plane {
             self.refuse(
@@ -31,7 +38,8 @@ impl Rules<'_> {
         let names = walls.iter().map(|wall| wall.name.as_str());
         let screw = self.found(&path("screw"), "wall", &raw.screw, names);
         let names = outlets.iter().map(|outlet| outlet.name.as_str());
-        let outlet = self.found(&path("outlet"), "outlet", &raw.outlet, names);
+        let outlet = raw.outlet.as_ref();
+        let outlet = outlet.and_then(|outlet| self.found(&path("outlet"), "outlet", outlet, names));
         let conveying = Conveying {
             screw: screw.unwrap_or(0),
             pitch: self.above_zero(&path("pitch"), "the pitch", raw.pitch.0),
@@ -39,8 +47,11 @@ impl Rules<'_> {
             shaft: self.not_negative(&path("shaft"), "the diameter of the shaft", raw.shaft.0),
             section: raw.section.0.map(|length| length.0),
             casing: self.above_zero(&path("casing"), "the diameter of the casing", raw.casing.0),
-            hopper: self.region(&path("hopper"), "box", &raw.hopper),
-            outlet: outlet.unwrap_or(0),
+            hopper: raw
+                .hopper
+                .as_ref()
+                .map(|raw| self.region(&path("hopper"), "box", raw)),
+            outlet,
         };
         self.above(
             &path("outer"),
@@ -65,6 +76,7 @@ impl Rules<'_> {
         if let Some(wall) = screw.and_then(|screw| walls.get(screw)) {
             self.turns(&path("screw"), wall);
             self.agrees(wall, &conveying);
+            self.counts_once(wall, &conveying, domain);
         }
         conveying
     }
@@ -100,6 +112,20 @@ impl Rules<'_> {
                     wall.name
                 ),
                 "give it a motion: (turn: (point: …, axis: …, rate: …)) of a rate other than zero",
+            );
+        }
+    }
+
+    /// A section along a periodic axis holds no grain twice.
+    fn counts_once(&mut self, wall: &Wall, conveying: &Conveying, domain: &Domain) {
+        let [first, last] = conveying.section;
+        let period = conveying.period(wall, domain);
+        // The slack forgives the rounding of decimals.
+        if let Some(period) = period.filter(|period| last - first > period * (1.0 + 1e-9)) {
+            self.refuse(
+                "measures.conveying.section[1]",
+                format!("the section is longer than the period of {period:?} m along the screw"),
+                "end it at most one period behind its beginning",
             );
         }
     }

@@ -82,7 +82,7 @@ impl<'a> Rules<'a> {
             );
         }
         let measures = raw.measures.map_or(Measures::default(), |measures| {
-            self.measures(&measures, &walls, &outlets)
+            self.measures(&measures, &walls, &outlets, &domain)
         });
         let output = raw
             .output

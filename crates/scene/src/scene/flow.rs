@@ -1,5 +1,6 @@
 //! Grains that come and go, and what is measured of their flow.
 
+use super::{Axis, Domain, Wall};
 use glam::DVec3;
 
 /// A box along the axes.
@@ -75,10 +76,24 @@ pub struct Conveying {
     pub section: [f64; 2],
     /// Inner diameter of the casing, m, above the outer diameter of the screw.
     pub casing: f64,
-    /// Where the bulk density before the screw is measured.
-    pub hopper: Region,
-    /// The place in [`Scene::outlets`](super::Scene::outlets) of the outlet that the screw feeds.
-    pub outlet: usize,
+    /// Where the bulk density before the screw is measured; a stretch of tube has no such place.
+    pub hopper: Option<Region>,
+    /// The place in [`Scene::outlets`](super::Scene::outlets) of the outlet that the screw feeds, if it feeds one.
+    pub outlet: Option<usize>,
+}
+
+impl Conveying {
+    /// The length after which the scene repeats along the axis of the screw, m, if it does.
+    pub fn period(&self, screw: &Wall, domain: &Domain) -> Option<f64> {
+        let axis = screw.motion.as_ref()?.turn?.axis;
+        let along = |x: f64| x.abs() > 1.0 - 1e-9;
+        [(axis.x, domain.x), (axis.y, domain.y), (axis.z, domain.z)]
+            .into_iter()
+            .find_map(|(share, axis)| match axis {
+                Axis::Periodic(length) if along(share) => Some(length),
+                _ => None,
+            })
+    }
 }
 
 #[cfg(test)]

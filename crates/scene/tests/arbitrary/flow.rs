@@ -1,6 +1,7 @@
 //! Outlets, inlets and measures.
 
 use proptest::collection::vec;
+use proptest::option::of;
 use proptest::prelude::*;
 use tsubu_scene::*;
 
@@ -41,7 +42,7 @@ fn moved(mut region: Region, along_x: f64) -> Region {
 
 /// A measure; its wall and its outlet are numbers of any size, see [`fitting`].
 pub fn conveying() -> impl Strategy<Value = Conveying> {
-    let places = (any::<usize>(), any::<usize>(), region());
+    let places = (any::<usize>(), of(any::<usize>()), of(region()));
     let sizes = (size(), size(), 1.01_f64..9.0, 1.01_f64..9.0);
     (places, sizes, -1e3_f64..1e3, 1e-3_f64..1e3).prop_map(
         |((screw, outlet, hopper), (pitch, shaft, outer, casing), from, long)| Conveying {
@@ -57,9 +58,11 @@ pub fn conveying() -> impl Strategy<Value = Conveying> {
     )
 }
 
-/// The measure of one of these walls, which turns, and of one of so many outlets; `None` without either.
+/// The measure of one of these walls, which turns, and of one of so many outlets, if any; `None` without a wall.
 pub fn fitting(mut measure: Conveying, walls: &[Wall], outlets: usize) -> Option<Conveying> {
-    measure.outlet = measure.outlet.checked_rem(outlets)?;
+    measure.outlet = measure
+        .outlet
+        .and_then(|number| number.checked_rem(outlets));
     measure.screw = walls.iter().position(|wall| {
         let turn = wall.motion.as_ref().and_then(|motion| motion.turn);
         turn.is_some_and(|turn| turn.rate != 0.0)

@@ -5,17 +5,22 @@
 //! a definition of a, and how near a is to 1 is what the charts say.
 
 mod cost;
+mod kept;
+mod ladder;
+mod levels;
 mod plug;
 mod runs;
+mod section;
 
 use super::check::Tolerance;
 use super::report::Report;
+use kept::Measured;
 use rayon::prelude::*;
-use runs::{Case, Kind, Measured, fingerprint};
+use runs::{Case, Kind, fingerprint};
 use tsubu_picture::Figure;
 
-/// Seven speeds at n = 3 and the cheaper comparisons at n = 4.
-pub const FULL_GRAIN_STEPS: f64 = 1.2e11;
+/// Seven speeds at n = 3, the cheaper comparisons at n = 4, and the ladder.
+pub const FULL_GRAIN_STEPS: f64 = 1.2e11 + ladder::GRAIN_STEPS;
 
 /// Paper A's speeds, r/min (fig. 8).
 const SPEEDS: [f64; 7] = [20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0];
@@ -39,6 +44,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     let base = Case::of(4, 60.0);
     let one = all(&[base])?;
     identities(report, &base, &one[0]);
+    ladder::run(report, &one[0])?;
     if !report.full() {
         return Ok(());
     }
@@ -61,6 +67,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
         }
     }
     report.progress("all speeds at n = 3");
+    levels::feeder(report, &surface[2], &one[0]);
     cost::run(report, &root, print)?;
     against_speed(report, surface)
 }
@@ -177,14 +184,7 @@ fn comparisons(
             },
         ),
         (
-            "a sixth fewer grains",
-            Case {
-                fill: 0.26,
-                ..*base
-            },
-        ),
-        (
-            "walls touched at the centre, s = R, and a sixth fewer grains",
+            "walls touched at the centre, s = R",
             base.touching_at_centres(),
         ),
     ];
@@ -204,6 +204,9 @@ fn comparisons(
             ratio,
             "",
         );
+    }
+    if let Some(at_centres) = measured.last() {
+        ladder::offsets_of_feeder(report, base.coarse, one, at_centres);
     }
     Ok(cases.len())
 }

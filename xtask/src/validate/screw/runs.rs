@@ -1,14 +1,11 @@
 //! One run of the feeder after another: the shipped scene with other levels, speeds, stiffnesses and screws.
 //!
-//! The bed is settled once for each level and started from file; a finished run is kept in
-//! `target/validate/screw/`, so that the long version can be stopped and taken up again. Its name holds a
-//! fingerprint of the physics, so a change of the code, of the scene or of its meshes starts anew.
+//! The bed is settled once for each level and started from file; a finished run is kept ([`super::kept`]).
 
+use super::kept::{self, Flow, Measured};
 use crate::validate::scenes::{
     build_on_one_thread, changed, from_places, keep, places, until_released,
 };
-use std::fmt::Write as _;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use tsubu_scene::Source;
 
@@ -53,24 +50,8 @@ pub struct Case {
     pub friction: f64,
     /// Grains touch walls at their centres (the literal reading), not at their surface.
     pub at_centres: bool,
-    /// Solid fraction of the random fill, before it falls.
-    pub fill: f64,
     /// What the screw is made of.
     pub kind: Kind,
-}
-
-/// What a run measured: name, value, uncertainty (NaN if there is none).
-#[derive(Clone, Debug)]
-pub struct Measured(Vec<(String, f64, f64)>);
-
-impl Measured {
-    /// Value and uncertainty by name; NaN if it was not measured.
-    pub fn get(&self, name: &str) -> (f64, f64) {
-        self.0
-            .iter()
-            .find(|r| r.0 == name)
-            .map_or((f64::NAN, f64::NAN), |r| (r.1, r.2))
-    }
 }
 
 impl Case {
@@ -83,28 +64,21 @@ impl Case {
             tangential: 1.0,
             friction: 0.413,
             at_centres: false,
-            fill: FILL,
             kind: Kind::Grid,
         }
     }
 
-    /// The same with grains that touch walls at their centres. Their room is a radius narrower all round, so no more
-    /// than this can be placed at random.
+    /// The same with grains that touch walls at their centres.
     pub fn touching_at_centres(self) -> Self {
         Self {
             at_centres: true,
-            fill: 0.26,
             ..self
         }
     }
 
-    /// How the walls are read and how many grains there are, as names of files say it.
-    fn place(&self) -> String {
-        let place = if self.at_centres { "centre" } else { "surface" };
-        if self.fill == FILL {
-            return place.to_owned();
-        }
-        format!("{place}-{}", self.fill)
+    /// How the walls are read, as names of files say it.
+    fn place(&self) -> &'static str {
+        if self.at_centres { "centre" } else { "surface" }
     }
 
     /// Seconds from the start of the screw: until the tube is full (its length over p n, a tenth slower),
@@ -133,9 +107,6 @@ impl Case {
             format!("time.until={} s", self.until()),
             "still.at_most=10 s".to_owned(),
         ];
-        if self.fill != FILL {
-            sets.push(format!("initial.fill.solid_fraction={}", self.fill));
-        }
         let centre = if self.at_centres { "Centre" } else { "Surface" };
         for wall in ["screw", "casing", "hopper"] {
             sets.push(format!("walls.{wall}.friction={}", self.friction));
@@ -171,7 +142,6 @@ impl Case {
         if !file.exists() {
             let settling = Case {
                 at_centres: self.at_centres,
-                fill: self.fill,
                 ..Case::of(self.coarse, 60.0)
             };
             let source = changed(&root.join(SCENE), &settling.sets())?;
@@ -214,87 +184,24 @@ impl Case {
     /// What the run measured, from the folder of finished runs or run now.
     pub fn measured(&self, root: &Path, fingerprint: u64) -> Result<Measured, String> {
         let file = self.file(root, fingerprint, "");
-        if let Some(measured) = std::fs::read_to_string(&file).ok().and_then(|t| read(&t)) {
+        if let Some(measured) = Measured::kept(&file) {
             return Ok(measured);
         }
-        let built = build_on_one_thread(&self.prepared(root, fingerprint, &[])?)?;
-        let (mut run, dt) = (built.simulation, built.plan.constants.dt);
-        // A look every 10 ms: forty and more in a turn; the flow is kept when the last whole turn is over.
-        let each = (0.01 / dt).round() as u64;
-        let turns = (self.until() * self.rpm / 60.0).floor() * 60.0 / self.rpm;
-        run.look();
-        while !run.is_over() {
-            let to_look = each - run.steps() % each;
-            let to_turn = run.released_at().map_or(u64::MAX, |start| {
-                ((start + turns - run.time()) / dt).round() as u64
-            });
-            run.advance(match to_turn {
-                0 => to_look,
-                _ => to_look.min(to_turn),
-            });
-            if to_turn > 0 && to_turn <= to_look {
-                keep(&self.file(root, fingerprint, FLOW), &places(&*run))?;
-            }
-            if run.steps() % each == 0 {
-                run.look();
-            }
-        }
-        if run.stop() != Some(tsubu_assemble::Stop::Over) {
-            return Err(format!("{self:?}: {:?}", run.stop()));
-        }
-        let mut text = String::new();
-        for reading in run.report() {
-            let uncertainty = reading.uncertainty.unwrap_or(f64::NAN);
-            let _ = writeln!(text, "{},{:?},{uncertainty:?}", reading.name, reading.value);
-        }
-        keep(&file, &text)?;
-        read(&text).ok_or_else(|| format!("{self:?}: its results do not read back"))
+        let flow = Flow {
+            after: (self.until() * self.rpm / 60.0).floor() * 60.0 / self.rpm,
+            file: self.file(root, fingerprint, FLOW),
+        };
+        Measured::of_run(&self.prepared(root, fingerprint, &[])?, &file, Some(&flow))
     }
 }
 
 /// Ends the name of the file with the places of the grains after the last whole turn.
 const FLOW: &str = "-flow";
 
-/// The shipped scene's solid fraction of the random fill.
-const FILL: f64 = 0.31;
-
 /// The shipped scene.
 const SCENE: &str = "scenarios/screw_feeder.ron";
 
-fn read(text: &str) -> Option<Measured> {
-    let line = |line: &str| {
-        let mut words = line.split(',');
-        Some((
-            words.next()?.to_owned(),
-            words.next()?.parse().ok()?,
-            words.next()?.parse().ok()?,
-        ))
-    };
-    text.lines()
-        .map(line)
-        .collect::<Option<Vec<_>>>()
-        .map(Measured)
-}
-
-/// The bits at n = 4 four tenths of a second after the screw has started: they change with the physics, the
-/// scene, its meshes and what is measured. A new rule for what is steady may not show so early: then the
-/// folder of kept runs is to be emptied by hand.
+/// The fingerprint of the shipped scene at n = 4.
 pub fn fingerprint(root: &Path) -> Result<u64, String> {
-    let source = changed(&root.join(SCENE), &Case::of(4, 60.0).sets())?;
-    let mut run = build_on_one_thread(&source)?.simulation;
-    until_released(&mut *run)?;
-    for _ in 0..40 {
-        run.advance(400);
-        run.look();
-    }
-    let mut hasher = DefaultHasher::new();
-    for (x, v) in run.state() {
-        for value in x.to_array().into_iter().chain(v.to_array()) {
-            value.to_bits().hash(&mut hasher);
-        }
-    }
-    for reading in run.look().into_iter().chain(run.report()) {
-        reading.value.to_bits().hash(&mut hasher);
-    }
-    Ok(hasher.finish())
+    kept::fingerprint(&changed(&root.join(SCENE), &Case::of(4, 60.0).sets())?)
 }

@@ -1,0 +1,91 @@
+//! From what a scene asks to measure to the observers of a run.
+
+use crate::constants::Constants;
+use std::sync::Arc;
+use tsubu_measure::{
+    Balance, Conveying, ConveyingOptions, Energy, Flow, Heap, HeapOptions, Loads, Slices, Structure,
+};
+use tsubu_model::{Dim, Domain, Observer, Still, Surface, Vector};
+use tsubu_scene as scene;
+use tsubu_scene::{Removal, Shape};
+
+/// The measures of a screw conveyor; its axis points the way it feeds.
+fn conveying_of<D: Dim>(
+    scene: &scene::Scene,
+    wanted: &scene::Conveying,
+    surfaces: &[Arc<dyn Surface<D>>],
+) -> Option<Conveying> {
+    let screw = &scene.walls[wanted.screw];
+    let turn = screw.motion.as_ref()?.turn?;
+    let section = (wanted.section[0], wanted.section[1]);
+    let period = wanted.period(screw, &scene.domain);
+    let ends = surfaces[wanted.screw].bounds().map(|[low, high]| {
+        let (a, b) = (
+            (low - turn.point).dot(turn.axis),
+            (high - turn.point).dot(turn.axis),
+        );
+        (a.min(b), a.max(b))
+    });
+    Some(Conveying::new(ConveyingOptions {
+        screw: wanted.screw,
+        outlet: wanted.outlet,
+        point: turn.point,
+        direction: turn.axis,
+        section,
+        // Where the scene repeats there is no more of it than a period, however long the screw.
+        along: ends.filter(|_| period.is_none()).unwrap_or(section),
+        period,
+        pitch: wanted.pitch,
+        outer: wanted.outer,
+        shaft: wanted.shaft,
+        casing: wanted.casing,
+        hopper: wanted.hopper.map(|hopper| [hopper.min, hopper.max]),
+        density: scene.grains.density(),
+    }))
+}
+
+/// All that look at a run, in the order of their rows.
+pub(crate) fn observers_of<D: Slices>(
+    scene: &scene::Scene,
+    constants: &Constants,
+    domain: &Domain<D>,
+    surfaces: &[Arc<dyn Surface<D>>],
+    movers: &[bool],
+) -> Vec<Box<dyn Observer<D, Still>>> {
+    let mut observers: Vec<Box<dyn Observer<D, Still>>> = Vec::new();
+    let depth = (D::V::AXES == 3 && domain.is_periodic(1)).then(|| domain.period.axis(1));
+    let removed = scene.walls.iter().find(|w| w.removed != Removal::Never);
+    if let Some(removed) = removed {
+        // A wall that stays and looks along x is the back, one that looks against it the far end.
+        let upright = |sign: f64| {
+            scene.walls.iter().find_map(|w| {
+                let Shape::HalfSpace { point, outward } = &w.shape else {
+                    return None;
+                };
+                (w.removed == Removal::Never && sign * outward.x > 0.999).then_some(point.x)
+            })
+        };
+        observers.push(Box::new(Heap::new(HeapOptions {
+            diameter: constants.kind.diameter(),
+            depth,
+            back: upright(1.0).unwrap_or(0.0),
+            far: upright(-1.0),
+            release: Some(removed.name.clone()),
+            snapshots: vec![0.1, 0.2, 0.4, 0.6, 1.0, 1.4, 2.0, 3.0, 5.0],
+        })));
+    }
+    if let Some(wanted) = &scene.measures.conveying {
+        let conveying = conveying_of(scene, wanted, surfaces);
+        observers.extend(conveying.map(|c| Box::new(c) as Box<dyn Observer<D, Still>>));
+    }
+    if scene.output.energies {
+        observers.push(Box::new(Energy::new()));
+    }
+    if !scene.outlets.is_empty() || !scene.inlets.is_empty() {
+        observers.push(Box::new(Flow::new()));
+    }
+    observers.push(Box::new(Structure::new(depth)));
+    observers.push(Box::new(Balance::new()));
+    observers.push(Box::new(Loads::new(movers.to_vec())));
+    observers
+}
