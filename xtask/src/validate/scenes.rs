@@ -41,8 +41,13 @@ pub fn places(run: &dyn Simulation) -> String {
 
 /// One thread each; several cases run side by side.
 pub fn build_on_one_thread(source: &Source) -> Result<Built, String> {
+    build_on(source, 1)
+}
+
+/// A scene ready to run on so many threads.
+pub fn build_on(source: &Source, threads: usize) -> Result<Built, String> {
     let choices = Choices {
-        threads: Some(1),
+        threads: Some(threads),
         ..Choices::default()
     };
     let checked = source.check().map_err(|e| e.to_string())?;

@@ -2,7 +2,7 @@
 //! taken up again. The name of a file holds a fingerprint of the physics, so a change of the code, of the scene or of
 //! its meshes starts anew.
 
-use crate::validate::scenes::{build_on_one_thread, keep, places, until_released};
+use crate::validate::scenes::{build_on, build_on_one_thread, keep, places, until_released};
 use std::fmt::Write as _;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -35,9 +35,14 @@ impl Measured {
     }
 
     /// Runs a scene to its end, looking every 10 ms of it, and keeps what it reports, and its flow if that is wanted.
-    pub fn of_run(source: &Source, file: &Path, flow: Option<&Flow>) -> Result<Self, String> {
+    pub fn of_run(
+        source: &Source,
+        file: &Path,
+        flow: Option<&Flow>,
+        threads: usize,
+    ) -> Result<Self, String> {
         let name = file.display();
-        let built = build_on_one_thread(source)?;
+        let built = build_on(source, threads)?;
         let (mut run, dt) = (built.simulation, built.plan.constants.dt);
         let each = (0.01 / dt).round() as u64;
         run.look();

@@ -5,6 +5,7 @@
 //! a definition of a, and how near a is to 1 is what the charts say.
 
 mod cost;
+mod full;
 mod kept;
 mod ladder;
 mod levels;
@@ -43,7 +44,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     // The beds are made first: cases that run side by side share them.
     let base = Case::of(4, 60.0);
     let one = all(&[base])?;
-    identities(report, &base, &one[0]);
+    identities(report, &base.name(), &one[0]);
     ladder::run(report, &one[0])?;
     if !report.full() {
         return Ok(());
@@ -57,7 +58,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     cases.extend([60.0, 100.0].map(|rpm| Case::of(3, rpm).touching_at_centres()));
     let measured = all(&cases)?;
     for (case, measured) in cases.iter().zip(&measured) {
-        identities(report, case, measured);
+        identities(report, &case.name(), measured);
     }
     let (surface, centre) = measured.split_at(SPEEDS.len());
     for (rpm, centre) in [60.0, 100.0].into_iter().zip(centre) {
@@ -69,7 +70,11 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     report.progress("all speeds at n = 3");
     levels::feeder(report, &surface[2], &one[0]);
     cost::run(report, &root, print)?;
-    against_speed(report, surface)
+    against_speed(report, surface)?;
+    let hundred = SPEEDS.iter().position(|&s| s == 100.0).unwrap_or(0);
+    let full = full::run(report, &root, print, &surface[hundred])?;
+    identities(report, "200 000 grains, 100 r/min", &full);
+    Ok(())
 }
 
 /// The two readings of where a grain touches a wall, at n = 3.
@@ -83,9 +88,7 @@ fn offsets(report: &mut Report, rpm: f64, surface: &Measured, centre: &Measured)
 }
 
 /// What must hold in any feeder.
-fn identities(report: &mut Report, case: &Case, measured: &Measured) {
-    let reading = if case.at_centres { ", s = R" } else { "" };
-    let name = format!("n = {}, {} r/min{reading}", case.coarse, case.rpm);
+fn identities(report: &mut Report, name: &str, measured: &Measured) {
     let (rate, rate_error) = measured.get("mass_rate");
     let (section, section_error) = measured.get("mass_rate_from_section");
     report.check(

@@ -76,6 +76,12 @@ impl Case {
         }
     }
 
+    /// As the table calls it.
+    pub fn name(&self) -> String {
+        let reading = if self.at_centres { ", s = R" } else { "" };
+        format!("n = {}, {} r/min{reading}", self.coarse, self.rpm)
+    }
+
     /// How the walls are read, as names of files say it.
     fn place(&self) -> &'static str {
         if self.at_centres { "centre" } else { "surface" }
@@ -191,7 +197,12 @@ impl Case {
             after: (self.until() * self.rpm / 60.0).floor() * 60.0 / self.rpm,
             file: self.file(root, fingerprint, FLOW),
         };
-        Measured::of_run(&self.prepared(root, fingerprint, &[])?, &file, Some(&flow))
+        Measured::of_run(
+            &self.prepared(root, fingerprint, &[])?,
+            &file,
+            Some(&flow),
+            1,
+        )
     }
 }
 

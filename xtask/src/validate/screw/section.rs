@@ -116,7 +116,7 @@ impl Rung {
             Some(measured) => Ok(measured),
             None => {
                 eprintln!("  {} …", self.name());
-                Measured::of_run(&changed(&root.join(SCENE), &self.sets())?, &file, None)
+                Measured::of_run(&changed(&root.join(SCENE), &self.sets())?, &file, None, 1)
             }
         }
     }
