@@ -13,7 +13,7 @@ use crate::validate::scenes::changed;
 use rayon::prelude::*;
 
 /// Turns of a run, and of the rungs that are held against each other: all as long as five turns of n = 2, eleven minutes of
-/// one core. The flow gains up to half a per cent between the two while the grains find their places.
+/// one core. At n = 4 and 3 the axial speed differs between the two by 0.3 % at most.
 const TURNS: f64 = 8.0;
 const TURNS_OF_LADDER: f64 = 5.0;
 

@@ -1,7 +1,7 @@
 //! What the levels say together: the order in λ, a straight line to the real grain, figures.
 
 use super::kept::Measured;
-use super::section::Found;
+use super::section::{Found, most};
 use crate::validate::report::Report;
 use tsubu_picture::Figure;
 
@@ -76,6 +76,17 @@ pub fn levels(report: &mut Report, found: &[Found]) -> Result<(), String> {
             &[rate_at_one, middle],
         );
     }
+    // What s = R gives if only the room differs.
+    let surface = found
+        .iter()
+        .find(|f| !f.rung.at_centres)
+        .map_or(f64::NAN, |f| f.rate().0);
+    let x: Vec<f64> = (0..=40).map(|k| 1.350 + 0.5 * f64::from(k)).collect();
+    let room: Vec<f64> = x
+        .iter()
+        .map(|d| surface * most(0.5e-3 * d) / most(0.0))
+        .collect();
+    rate = rate.theory("s = R + d/2 at n = 2, times C(d'/2)/C(0)", &x, &room);
     report.figure("screw_ladder", efficiency)?;
     report.figure("screw_ladder_rate", rate)
 }
