@@ -99,9 +99,11 @@ impl Case {
     }
 
     /// The run in whose flow this one starts, where runs are long: the same feeder at 60 r/min. Its tube is
-    /// full, its screw where it was at the start; the grains start at rest.
+    /// full, its screw where it was at the start; the grains start at rest. Grains that touch walls at their centres
+    /// do so at any depth, which a start from a list refuses: those start from the bed.
     fn flow(&self) -> Option<Self> {
-        (self.coarse < 4 && self.rpm != 60.0).then_some(Self { rpm: 60.0, ..*self })
+        let long = self.coarse < 4 && self.rpm != 60.0 && !self.at_centres;
+        long.then_some(Self { rpm: 60.0, ..*self })
     }
 
     fn sets(&self) -> Vec<String> {
