@@ -114,6 +114,11 @@ pub struct RepulsionPair {
 }
 
 impl RepulsionPair {
+    /// Contact stiffness k = φ''(r_c) in N/m: 72·2^(−1/3) ε/σ².
+    pub fn contact_stiffness(&self) -> f64 {
+        STIFFNESS_FACTOR * (self.epsilon24 / 24.0) / self.sigma2
+    }
+
     /// −φ'(r)/r in N/m.
     #[inline(always)]
     pub(crate) fn push_over_r(&self, r2: f64) -> f64 {

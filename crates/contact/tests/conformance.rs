@@ -147,7 +147,7 @@ fn mixed(size_ratio: f64) -> RepulsionPair {
 }
 
 /// Of one material: σ = (1 + q)/2, k = 2q/(1 + q) and γ = 2q²/(1 + q²) of the grain's own.
-/// k is read off ε and σ: k = 72·2^(−1/3) ε/σ². Rounding only: 1e-12.
+/// Rounding only: 1e-12.
 #[test]
 fn sizes_of_one_material_mix_as_their_closed_form() {
     for q in [0.05, 0.25, 0.5, 1.0, 2.0, 7.0] {
@@ -157,7 +157,7 @@ fn sizes_of_one_material_mix_as_their_closed_form() {
             (sigma / (0.5 * (1.0 + q)) - 1.0).abs() < 1e-12,
             "{q}: {sigma}"
         );
-        let stiffness = pair.epsilon24 / (24.0 * 9.434e-2) / (sigma * sigma);
+        let stiffness = pair.contact_stiffness() / coke().stiffness();
         let expected = 2.0 * q / (1.0 + q);
         assert!(
             (stiffness / expected - 1.0).abs() < 1e-12,

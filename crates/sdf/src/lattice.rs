@@ -23,6 +23,8 @@ const LAYER: f64 = 1.5;
 const SEEDS: f64 = 0.5;
 /// The cosine between the outward normals of two faces that count as opposite: a wedge of 37° does.
 const OPPOSITE: f64 = -0.8;
+/// Tries to find the middle between two faces; opposite ones need ten at most.
+const MOST_TRIES: usize = 30;
 /// The most places that are tried; above it a radius is more likely a slip of units.
 const MOST: f64 = 2e9;
 
@@ -108,12 +110,12 @@ fn lattice(surface: &dyn Surface<Space>, [low, high]: [DVec3; 2], rs: f64) -> Ve
             let mut i = (j + k) % 2;
             while i <= nx {
                 let x = low + rs + half * DVec3::new(i as f64, j as f64, k as f64);
-                if probe.depth(x, deep_enough) >= deep_enough {
+                // How far around no grain is inside.
+                let free = surface.lower_bound(x) + deep_enough;
+                if free <= 0.0 && probe.depth(x, 0.0) >= deep_enough {
                     taken.push(x);
-                    i += 2;
-                } else {
-                    i += 2 * stride(surface.lower_bound(x) + deep_enough, 2.0 * half);
                 }
+                i += 2 * stride(free, 2.0 * half);
             }
         }
         taken
@@ -178,9 +180,6 @@ impl<'a> Probe<'a> {
 
     /// The nearest place: distance and normal, if it is nearer than `reach`.
     fn nearest(&mut self, x: DVec3, reach: f64) -> Option<(f64, DVec3)> {
-        if self.surface.lower_bound(x) >= reach {
-            return None;
-        }
         self.out.hits.clear();
         self.surface.hits(&[x], &[reach], &mut self.out);
         let hits = self.out.hits.iter();
@@ -188,13 +187,10 @@ impl<'a> Probe<'a> {
         Some((hit.distance, hit.normal))
     }
 
-    /// How deep inside a point is in m; zero outside. Points less deep than `wanted` by their bound
-    /// may be answered by zero without being asked in full.
-    fn depth(&mut self, x: DVec3, wanted: f64) -> f64 {
-        if self.surface.lower_bound(x) > -wanted {
-            return 0.0;
-        }
-        self.nearest(x, 0.0).map_or(0.0, |(distance, _)| -distance)
+    /// How deep inside a point is in m; negative outside, where it is not known beyond `reach`.
+    fn depth(&mut self, x: DVec3, reach: f64) -> f64 {
+        let nearest = self.nearest(x, reach);
+        nearest.map_or(-reach, |(distance, _)| -distance)
     }
 
     /// The nearest place of the surface and its normal, if it is within `step` of the seed; else how
@@ -215,20 +211,24 @@ impl<'a> Probe<'a> {
     /// are less than 2 rs apart.
     fn middle(&mut self, (face, normal): (DVec3, DVec3), rs: f64) -> Option<DVec3> {
         let at = |s: f64| face - normal * s;
-        if self.depth(at(rs), 0.0) >= rs * (1.0 - 1e-6) {
+        // Inwards the depth is the way gone until the opposite face is as near: the middle. Beyond it
+        // the depth falls as fast as the way grows, if that face is parallel, so that the next try is
+        // in the middle of both; another face takes a few tries more.
+        let mut top = rs;
+        for tries in 0.. {
+            let depth = self.depth(at(top), 2.0 * rs);
+            if depth >= top - 1e-7 * rs {
+                break;
+            }
+            if tries == MOST_TRIES {
+                return None;
+            }
+            top = 0.5 * (top + depth);
+        }
+        // A part that holds a whole grain, or the face of a point.
+        if top >= rs * (1.0 - 1e-6) || top <= 1e-6 * rs {
             return None;
         }
-        // Inwards the depth is the way gone until the opposite face is as near: the middle.
-        let (mut low, mut high) = (0.0, rs);
-        while high - low > 1e-7 * rs {
-            let s = 0.5 * (low + high);
-            if self.depth(at(s), 0.0) >= s - 1e-9 * rs {
-                low = s;
-            } else {
-                high = s;
-            }
-        }
-        let top = 0.5 * (low + high);
         let aside = (0.01 * rs).min(0.5 * top);
         // Only between two faces that look away from each other: not at the edge of a thick part.
         let before = self.nearest(at(top - aside), 0.0)?.1;

@@ -2,16 +2,19 @@
 
 mod cells;
 mod error;
+mod filled;
 #[cfg(test)]
 mod tests;
 
 pub use error::GrainBodyError;
 
 use crate::exact::ExactMesh;
+use crate::grid::GridError;
 use crate::lattice::{Thin, fill_fcc};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshError};
 use crate::solid::demand_length;
 use cells::Cells;
+use filled::Filled;
 use glam::DVec3;
 use tsubu_model::{Hit, HitBuffer, Shell, Space, Surface};
 
@@ -116,7 +119,12 @@ impl GrainBody {
             None => mesh.volume().abs(),
         };
         error::refuse_too_large(bounds, volume, options)?;
-        let centres = fill_fcc(&exact, bounds, radius, thin)?;
+        let filled = Filled::new(&exact, thickness).map_err(|error| match error {
+            GridError::Mesh(error) => error,
+            // The options are ours and fit; a mesh too flat for a grid has no area either.
+            _ => MeshError::NoArea,
+        })?;
+        let centres = fill_fcc(&filled, bounds, radius, thin)?;
         let Some(cells) = Cells::new(centres, radius, reach) else {
             return Err(GrainBodyError::NoGrain {
                 radius,
