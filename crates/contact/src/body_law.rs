@@ -5,8 +5,9 @@ use tsubu_model::{Constants, ContactLaw, Dim, Kind, Linear, Push, Quantity, Spin
 
 /// How grains feel a body. Bodies of one world share this type, each with its own value.
 ///
-/// Each variant is the law it holds, with its formula, validity and source: [`RepulsiveWall`]
-/// (`Sumitomo2024`, section 5.3) and [`WallGrains`] (section 4).
+/// Each variant is the law it holds, with its formula and validity: [`RepulsiveWall`] and [`WallGrains`].
+///
+/// Source: `Sumitomo2024`, sections 5.3 and 4.
 ///
 /// ```
 /// use tsubu_contact::{BodyLaw, Repulsion, WallGrains};
