@@ -324,3 +324,49 @@ fn a_machine_leaves_its_books_closed_and_its_bodies_in_the_frames() {
     assert!(!again.stderr.contains("building"), "{}", again.stderr);
     assert_eq!(read("out/first/series.csv"), read("out/second/series.csv"));
 }
+
+/// The shipped feeder at its coarsest with a screw built of grains of half a grain's radius.
+#[test]
+fn the_feeder_runs_with_a_screw_built_of_grains() {
+    let mut source = Source::read(tsubu_tests::repository().join("scenarios/screw_feeder.ron"))
+        .unwrap_or_else(|e| panic!("{e}"));
+    for change in [
+        "grains.coarse=4",
+        "walls.screw.shape=Mesh(file: \"meshes/screw.stl\", unit: \"mm\", surface: Grains(radius: \"5.4 mm\"))",
+        "walls.screw.restitution=None",
+        "walls.screw.friction=None",
+        "still.kinetic_energy=1e9",
+        "still.for_at_least=0 s",
+        "time.steps=400",
+    ] {
+        source.set(change).unwrap_or_else(|e| panic!("{e}"));
+    }
+    let checked = source.check().unwrap_or_else(|e| panic!("{e}"));
+    // Grids of distances are kept between the tests, as the command keeps them between runs.
+    let grids = Some(Path::new(env!("CARGO_TARGET_TMPDIR")).join("grids"));
+    let choices = Choices {
+        grids,
+        ..Choices::default()
+    };
+    let built = build(&checked, &choices).unwrap_or_else(|e| panic!("{e}"));
+    let said = built.plan.modelled.join("\n");
+    assert!(
+        said.contains("wall grains of `screw`:") && said.contains("rs/rp = 0.5000"),
+        "{said}"
+    );
+    let mut run = built.simulation;
+    run_out(&mut *run);
+    assert!(
+        run.state()
+            .iter()
+            .all(|(x, v)| x.is_finite() && v.is_finite())
+    );
+    let mut readings = run.look();
+    readings.extend(run.report());
+    let reading = |name: &str| {
+        let found = readings.iter().find(|r| r.name == name);
+        found.map_or_else(|| panic!("no {name}"), |r| r.value)
+    };
+    assert_eq!(reading("grains_missing"), 0.0);
+    assert!(reading("torque_x_on_screw").is_finite());
+}

@@ -81,9 +81,12 @@ fn in_dimension<D: Shaped + Slices>(
         choices,
         diameter: constants.kind.diameter(),
     };
-    let surfaces = (0..checked.scene.walls.len())
-        .map(|wall| D::surface(&shapes, wall))
-        .collect::<Result<Vec<_>, _>>()?;
+    let (mut surfaces, mut wall_grains) = (Vec::new(), Vec::new());
+    for wall in 0..checked.scene.walls.len() {
+        let made = D::surface(&shapes, wall)?;
+        surfaces.push(made.surface);
+        wall_grains.push(made.wall_grains);
+    }
     bodies_stay::<D>(checked, &surfaces, &domain, constants.dt)?;
     let grains = start::grains::<D>(checked, &constants, &domain, &surfaces)?;
     let threads = choices
@@ -91,7 +94,8 @@ fn in_dimension<D: Shaped + Slices>(
         .unwrap_or_else(|| as_many_as_pay(grains.len()))
         .max(1);
     let lanes = choices.lanes.unwrap_or_else(Lanes::best);
-    let plan = Plan::of(checked, &constants, grains.len(), threads, lanes.name());
+    let mut plan = Plan::of(checked, &constants, grains.len(), threads, lanes.name());
+    plan.say_wall_grains(checked, &wall_grains);
     if !choices.allow_unstable {
         plan.refuse_unstable(checked)?;
     }
@@ -157,9 +161,10 @@ impl<D: Layout + Slices> Parts<'_, D> {
                 name: wall.name.clone(),
                 surface: surface.clone(),
                 law: *law,
-                touches_at: match wall.touches_at {
-                    scene::TouchesAt::Surface => TouchesAt::Surface,
-                    scene::TouchesAt::Centre => TouchesAt::Centre,
+                touches_at: match (wall.shape.wall_grains(), wall.touches_at) {
+                    (Some(radius), _) => TouchesAt::WallGrains(radius),
+                    (None, scene::TouchesAt::Surface) => TouchesAt::Surface,
+                    (None, scene::TouchesAt::Centre) => TouchesAt::Centre,
                 },
                 removed_at: None,
                 motion: motion_of(wall),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use tsubu_coarsen::{
     CoarseRule, Gap, Level, RadlRestitution, Renormalised, SakaiKoshizuka, check_gaps, coarsen,
 };
-use tsubu_contact::{Repulsion, RepulsiveWall, restitution};
+use tsubu_contact::{BodyLaw, Repulsion, RepulsiveWall, WallGrains, restitution};
 use tsubu_integrate::Scheme;
 use tsubu_model::Kind;
 use tsubu_scene as scene;
@@ -20,7 +20,7 @@ pub struct Constants {
     /// True if γn = γt: the law needs neither root nor projection.
     pub isotropic: bool,
     /// The law at each wall.
-    pub walls: Vec<RepulsiveWall>,
+    pub walls: Vec<BodyLaw>,
     /// λ = 2^n.
     pub lambda: f64,
     /// Name of the coarse-graining rule.
@@ -57,10 +57,17 @@ impl Constants {
         let walls = scene
             .walls
             .iter()
-            .map(|w| RepulsiveWall {
-                grains: coarse,
-                restitution: w.restitution,
-                friction: w.friction.unwrap_or(0.0),
+            .map(|w| match w.shape.wall_grains() {
+                // Of the coarse grains' material, at the size that the scene gives.
+                Some(radius) => BodyLaw::Grains(WallGrains {
+                    grains: coarse,
+                    radius,
+                }),
+                None => BodyLaw::Surface(RepulsiveWall {
+                    grains: coarse,
+                    restitution: w.restitution,
+                    friction: w.friction.unwrap_or(0.0),
+                }),
             })
             .collect();
         if grains.coarse > 0 {

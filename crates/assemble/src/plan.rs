@@ -2,6 +2,7 @@
 
 use crate::constants::Constants;
 use std::f64::consts::PI;
+use tsubu_contact::{BodyLaw, BodyPair};
 use tsubu_integrate::{Limit, Packing};
 use tsubu_model::{ContactLaw, Kind, Space, Still};
 use tsubu_scene::{
@@ -66,6 +67,19 @@ impl Plan {
             threads,
             lanes,
             constants: constants.clone(),
+        }
+    }
+
+    /// Adds what is known of bodies built of grains once they are built; per wall the number of its grains.
+    pub(crate) fn say_wall_grains(&mut self, checked: &Checked, counts: &[Option<usize>]) {
+        for (wall, count) in checked.scene.walls.iter().zip(counts) {
+            if let (Some(count), Some(radius)) = (count, wall.shape.wall_grains()) {
+                self.modelled.push(format!(
+                    "wall grains of `{}`: {count}, rs/rp = {:.4}",
+                    wall.name,
+                    radius / self.constants.kind.radius
+                ));
+            }
         }
     }
 
@@ -143,24 +157,32 @@ fn shares(constants: &Constants) -> Vec<LimitLine> {
             used: limit.used_by_packing(k, c, Packing::FaceCentredCubic),
         },
     ];
-    let hardest = constants
-        .walls
-        .iter()
-        .map(|w| {
-            <tsubu_contact::RepulsiveWall as ContactLaw<Space, Still>>::pair(
-                w,
-                &constants.kind,
-                &Kind::immovable(),
-            )
-            .damping
-        })
-        .fold(f64::NEG_INFINITY, f64::max);
-    if hardest >= 0.0 {
-        let c = hardest * constants.dt / constants.kind.mass;
-        lines.push(LimitLine {
-            name: "a grain at a wall".into(),
-            used: limit.used_by_packing(k, c, Packing::OneWallContact),
-        });
+    let per_mass = constants.dt / constants.kind.mass;
+    let (mut at_walls, mut at_grains) = (None::<f64>, None::<f64>);
+    for law in &constants.walls {
+        let pair =
+            <BodyLaw as ContactLaw<Space, Still>>::pair(law, &constants.kind, &Kind::immovable());
+        match pair {
+            BodyPair::Surface(pair) => {
+                at_walls = Some(at_walls.unwrap_or(0.0).max(pair.damping * per_mass));
+            }
+            BodyPair::Grains(pair) => {
+                let k = pair.contact_stiffness() * constants.dt * per_mass;
+                let c = pair.normal_damping.max(pair.tangential_damping) * per_mass;
+                let used = limit.used_by_packing(k, c, Packing::OneWallContact);
+                at_grains = Some(at_grains.unwrap_or(0.0).max(used));
+            }
+        }
+    }
+    let at_walls = at_walls.map(|c| limit.used_by_packing(k, c, Packing::OneWallContact));
+    for (name, used) in [
+        ("a grain at a wall", at_walls),
+        ("a grain at a wall grain", at_grains),
+    ] {
+        lines.extend(used.map(|used| LimitLine {
+            name: name.into(),
+            used,
+        }));
     }
     lines
 }
@@ -219,12 +241,19 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
         let part = |x: Option<f64>, name: &str, none: &str| {
             x.map_or(none.to_owned(), |x| format!("{name} {x}"))
         };
+        let material = if wall.shape.wall_grains().is_some() {
+            "touched as a grain".to_owned()
+        } else {
+            format!(
+                "{}, {}",
+                part(wall.restitution, "restitution", "elastic"),
+                part(wall.friction, "kinetic friction", "smooth"),
+            )
+        };
         lines.push(format!(
-            "wall `{}`: {}, {}, {}{}",
+            "wall `{}`: {}, {material}{}",
             wall.name,
             shape(&wall.shape),
-            part(wall.restitution, "restitution", "elastic"),
-            part(wall.friction, "kinetic friction", "smooth"),
             wall.motion.as_ref().map_or(String::new(), motion),
         ));
     }
@@ -269,6 +298,9 @@ fn shape(shape: &Shape) -> String {
             let file = mesh.path.file_name().unwrap_or_default().to_string_lossy();
             match surface {
                 MeshSurface::Exact => format!("triangles of {file}"),
+                MeshSurface::Grains { radius, .. } => {
+                    format!("{file} built of grains of {:.4} mm radius", radius * 1e3)
+                }
                 MeshSurface::Grid { cell, .. } => format!(
                     "{file} as a grid of distances{}",
                     cell.map_or(String::new(), |c| format!(", cell {:.3} mm", c * 1e3))

@@ -3,7 +3,7 @@
 use crate::gate::agitation;
 use glam::DVec3;
 use std::sync::Arc;
-use tsubu_contact::RepulsiveWall;
+use tsubu_contact::BodyLaw;
 use tsubu_engine::{Health, Layout, OneKind, Tally, World};
 use tsubu_model::{
     Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Pose, Reading, Shell, Still, Surface,
@@ -118,7 +118,7 @@ pub trait Simulation: Send {
 
 /// The one implementation.
 pub(crate) struct Running<D: Layout, L: ContactLaw<D, Still>, T: Tally> {
-    pub world: World<D, Still, OneKind, L, RepulsiveWall, T>,
+    pub world: World<D, Still, OneKind, L, BodyLaw, T>,
     pub surfaces: Vec<Arc<dyn Surface<D>>>,
     /// Triangles of the surfaces that have some.
     pub shells: Vec<Option<Arc<Shell>>>,

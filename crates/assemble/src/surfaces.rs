@@ -1,17 +1,40 @@
-//! From the shape of a wall to its surface: analytic shapes, meshes as grids of distances or as triangles.
+//! From the shape of a wall to its surface: analytic shapes, meshes as grids of distances, as triangles or filled with grains.
 
 use crate::build::Choices;
 use std::path::Path;
 use std::sync::Arc;
 use tsubu_engine::Layout;
 use tsubu_model::{Dim, Plane, Space, Surface};
-use tsubu_scene::{Checked, MeshFile, MeshSurface, SceneError, Shape};
+use tsubu_scene::{Checked, MeshFile, MeshSurface, SceneError, Shape, Thin};
 use tsubu_sdf as sdf;
 use tsubu_sdf::mesh::{Mesh, Report, Verdict};
-use tsubu_sdf::{DistanceGrid, ExactMesh, GridOptions};
+use tsubu_sdf::{
+    DistanceGrid, ExactMesh, GrainBody, GrainBodyError, GrainBodyOptions, GridOptions,
+};
 
-/// Most bytes that one grid of distances may take.
+/// Most bytes that one grid of distances or one body of grains may take.
 const MOST_BYTES: u64 = 2 << 30;
+/// Up to which distance a surface must know itself, in grain diameters: a grain is noted as near
+/// within its reach, the skin and what a body moves meanwhile.
+const BAND: f64 = 1.35;
+/// The largest wall grain over a grain: of larger ones a layer leaves holes that a grain slips through.
+const LARGEST_WALL_GRAIN: f64 = 2.0;
+
+/// A surface, and what is to be said of it.
+pub(crate) struct Made<D: Dim> {
+    pub surface: Arc<dyn Surface<D>>,
+    /// Number of wall grains of a body built of grains.
+    pub wall_grains: Option<usize>,
+}
+
+impl<D: Dim> From<Arc<dyn Surface<D>>> for Made<D> {
+    fn from(surface: Arc<dyn Surface<D>>) -> Self {
+        Self {
+            surface,
+            wall_grains: None,
+        }
+    }
+}
 
 /// What building a surface needs to know beside its shape.
 pub(crate) struct Shapes<'a> {
@@ -24,23 +47,33 @@ pub(crate) struct Shapes<'a> {
 /// A dimension with the shapes that it knows.
 pub(crate) trait Shaped: Layout {
     /// The surface of a wall.
-    fn surface(shapes: &Shapes, wall: usize) -> Result<Arc<dyn Surface<Self>>, SceneError>;
+    fn surface(shapes: &Shapes, wall: usize) -> Result<Made<Self>, SceneError>;
 }
 
 impl Shaped for Plane {
-    fn surface(shapes: &Shapes, wall: usize) -> Result<Arc<dyn Surface<Self>>, SceneError> {
-        shapes.in_any_dimension(wall).unwrap_or_else(|| {
+    fn surface(shapes: &Shapes, wall: usize) -> Result<Made<Self>, SceneError> {
+        let made = shapes.in_any_dimension(wall).unwrap_or_else(|| {
             let what = "this shape has no form in the plane";
             Err(shapes.trouble(wall, "shape", what, "write space: Space"))
-        })
+        });
+        made.map(Made::from)
     }
 }
 
 impl Shaped for Space {
-    fn surface(shapes: &Shapes, wall: usize) -> Result<Arc<dyn Surface<Self>>, SceneError> {
-        shapes
-            .in_any_dimension(wall)
-            .unwrap_or_else(|| shapes.in_space(wall))
+    fn surface(shapes: &Shapes, wall: usize) -> Result<Made<Self>, SceneError> {
+        if let Some(made) = shapes.in_any_dimension(wall) {
+            return made.map(Made::from);
+        }
+        if let Shape::Mesh {
+            mesh,
+            surface: MeshSurface::Grains { radius, thin },
+            thickness,
+        } = &shapes.checked.scene.walls[wall].shape
+        {
+            return shapes.of_grains(wall, mesh, *radius, *thin, *thickness);
+        }
+        shapes.in_space(wall).map(Made::from)
     }
 }
 
@@ -137,13 +170,14 @@ impl Shapes<'_> {
         })
     }
 
-    fn of_mesh(
+    /// Reads the mesh of a wall; refuses one without an inside. With it what the doctor says, and
+    /// where to hear more.
+    fn read(
         &self,
         wall: usize,
         file: &MeshFile,
-        surface: MeshSurface,
         thickness: Option<f64>,
-    ) -> Result<Arc<dyn Surface<Space>>, SceneError> {
+    ) -> Result<(Mesh, Report, String), SceneError> {
         let mesh = read_mesh(self.checked, &format!("walls[{wall}].shape.file"), file)?;
         let report = Report::of(&mesh);
         let look = format!("`tsubu mesh {}` says more", file.path.display());
@@ -153,6 +187,64 @@ impl Shapes<'_> {
                 format!("give it a thickness, as in thickness: \"2 mm\", or close it; {look}");
             return Err(self.trouble(wall, "shape.file", what, remedy));
         }
+        Ok((mesh, report, look))
+    }
+
+    /// A body built of grains: the mesh filled with grains that are driven with it.
+    fn of_grains(
+        &self,
+        wall: usize,
+        file: &MeshFile,
+        radius: f64,
+        thin: Thin,
+        thickness: Option<f64>,
+    ) -> Result<Made<Space>, SceneError> {
+        let field = "shape.surface.radius";
+        let most = LARGEST_WALL_GRAIN * 0.5 * self.diameter;
+        if radius > most {
+            let what = format!(
+                "the wall grains have {:.2} times the radius of a grain, {:.4} mm: grains would slip through between them",
+                radius / (0.5 * self.diameter),
+                500.0 * self.diameter
+            );
+            let remedy = format!("write at most {:.4} mm, twice the grain's", most * 1e3);
+            return Err(self.trouble(wall, field, what, remedy));
+        }
+        let (mesh, _, look) = self.read(wall, file, thickness)?;
+        let options = GrainBodyOptions {
+            thin: match thin {
+                Thin::Leave => sdf::Thin::Leave,
+                Thin::OneLayer => sdf::Thin::OneLayer,
+            },
+            thickness,
+            most_bytes: MOST_BYTES,
+            ..GrainBodyOptions::new(radius, BAND * self.diameter)
+        };
+        let body = GrainBody::build(&mesh, &options).map_err(|error| {
+            let (field, remedy) = match &error {
+                GrainBodyError::Mesh(_) => ("shape.file", look),
+                GrainBodyError::NoGrain { .. } => (
+                    field,
+                    format!("write a smaller radius, or thin: OneLayer; {look}"),
+                ),
+                _ => (field, format!("write a larger radius; {look}")),
+            };
+            self.trouble(wall, field, error.to_string(), remedy)
+        })?;
+        Ok(Made {
+            wall_grains: Some(body.count()),
+            surface: Arc::new(body),
+        })
+    }
+
+    fn of_mesh(
+        &self,
+        wall: usize,
+        file: &MeshFile,
+        surface: MeshSurface,
+        thickness: Option<f64>,
+    ) -> Result<Arc<dyn Surface<Space>>, SceneError> {
+        let (mesh, report, look) = self.read(wall, file, thickness)?;
         let (cell, exact_edges) = match surface {
             MeshSurface::Exact => {
                 let made = match thickness {
@@ -164,6 +256,8 @@ impl Shapes<'_> {
                 return Ok(Arc::new(exact));
             }
             MeshSurface::Grid { cell, exact_edges } => (cell, exact_edges),
+            // Built apart, since it has more to say.
+            MeshSurface::Grains { .. } => (None, false),
         };
         let thinnest = thickness.or(report.thinnest);
         if let (Some(cell), Some(thinnest)) = (cell, thinnest)
@@ -184,8 +278,7 @@ impl Shapes<'_> {
             thickness,
             most_bytes: MOST_BYTES,
             exact_edges,
-            // A grain is noted as near within its reach, the skin and what a body moves meanwhile.
-            ..GridOptions::new(cell, 1.35 * self.diameter + 2.0 * cell)
+            ..GridOptions::new(cell, BAND * self.diameter + 2.0 * cell)
         };
         let name = &self.checked.scene.walls[wall].name;
         let grid = self.choices.grid(&mesh, &options, name).map_err(|e| {

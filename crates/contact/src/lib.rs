@@ -10,10 +10,14 @@
 //! assert!((coke.epsilon / 9.434e-2 - 1.0).abs() < 3e-4);   // the paper prints 9.434e-2 J
 //! ```
 
+mod body_law;
 mod repulsion;
 pub mod restitution;
 pub mod testing;
 mod wall;
+mod wall_grains;
 
+pub use body_law::{BodyLaw, BodyPair};
 pub use repulsion::{Damping, Isotropic, PerDirection, Repulsion, RepulsionPair};
 pub use wall::{RepulsiveWall, RepulsiveWallPair};
+pub use wall_grains::WallGrains;

@@ -1,9 +1,10 @@
 //! Every public law passes the conformance suite: the paper's constants, and any sane ones.
 
+use glam::DVec3;
 use proptest::prelude::*;
 use tsubu_contact::testing::{Claims, breaches, conforms, rebounds_with};
-use tsubu_contact::{Repulsion, RepulsiveWall};
-use tsubu_model::{Kind, Plane, Space};
+use tsubu_contact::{BodyLaw, BodyPair, Repulsion, RepulsionPair, RepulsiveWall, WallGrains};
+use tsubu_model::{ContactLaw, Kind, Plane, Space, Still, Touch};
 
 /// Paper A's coke: ε, σ, γ and d as printed.
 fn coke() -> Repulsion {
@@ -62,6 +63,141 @@ fn repulsive_walls_conform() {
             conforms(&wall, &grain(), &Kind::immovable(), claims);
         }
     }
+}
+
+/// A wall grain in the wall law's place, smaller and larger than the grain, damped alike and apart.
+#[test]
+fn walls_of_grains_conform() {
+    for radius in [0.1e-3, 0.675e-3, 1.35e-3] {
+        for tangential in [0.1257, 0.4] {
+            let mut grains = coke();
+            grains.tangential_damping = tangential;
+            let law = WallGrains { grains, radius };
+            conforms(&law, &grain(), &Kind::immovable(), Claims::default());
+        }
+    }
+}
+
+#[test]
+fn laws_of_bodies_conform() {
+    let wall = RepulsiveWall {
+        grains: coke(),
+        restitution: Some(0.5),
+        friction: 0.413,
+    };
+    let claims = Claims::default().friction(0.413).never_pulls();
+    conforms(
+        &BodyLaw::Surface(wall),
+        &grain(),
+        &Kind::immovable(),
+        claims,
+    );
+    let law = WallGrains {
+        grains: coke(),
+        radius: 0.3e-3,
+    };
+    conforms(
+        &BodyLaw::Grains(law),
+        &grain(),
+        &Kind::immovable(),
+        Claims::default(),
+    );
+}
+
+/// The law of a body is the law it holds, to the bit.
+#[test]
+fn the_law_of_a_body_is_the_law_that_it_holds() {
+    let wall = RepulsiveWall {
+        grains: coke(),
+        restitution: Some(0.5),
+        friction: 0.413,
+    };
+    let grains = WallGrains {
+        grains: coke(),
+        radius: 0.5e-3,
+    };
+    let apart = DVec3::new(0.3e-3, 0.2e-3, 1.1e-3);
+    let touch = Touch::<Space, Still> {
+        apart,
+        velocity: DVec3::new(0.1, -0.3, -0.2),
+        r2: apart.length_squared(),
+        reach: 1.35e-3,
+        spin: Default::default(),
+    };
+    fn pushed<L: ContactLaw<Space, Still, Memory = [f64; 0]>>(
+        law: &L,
+        touch: &Touch<Space, Still>,
+    ) -> (DVec3, f64) {
+        let pair = law.pair(&grain(), &Kind::immovable());
+        let push = L::force(&pair, touch, &mut [], 1e-7);
+        (push.total(), L::stored(&pair, touch, &[]))
+    }
+    let (surface, grains) = (
+        (BodyLaw::Surface(wall), pushed(&wall, &touch)),
+        (BodyLaw::Grains(grains), pushed(&grains, &touch)),
+    );
+    for (law, expected) in [surface, grains] {
+        assert!(expected.0.length() > 0.0);
+        assert_eq!(pushed(&law, &touch), expected);
+    }
+}
+
+fn mixed(size_ratio: f64) -> RepulsionPair {
+    coke().mixed(&coke().at_diameter(size_ratio * 1.350e-3))
+}
+
+/// Of one material: σ = (1 + q)/2, k = 2q/(1 + q) and γ = 2q²/(1 + q²) of the grain's own.
+/// Rounding only: 1e-12.
+#[test]
+fn sizes_of_one_material_mix_as_their_closed_form() {
+    for q in [0.05, 0.25, 0.5, 1.0, 2.0, 7.0] {
+        let pair = mixed(q);
+        let sigma = pair.sigma2.sqrt() / 1.203e-3;
+        assert!(
+            (sigma / (0.5 * (1.0 + q)) - 1.0).abs() < 1e-12,
+            "{q}: {sigma}"
+        );
+        let stiffness = pair.contact_stiffness() / coke().stiffness();
+        let expected = 2.0 * q / (1.0 + q);
+        assert!(
+            (stiffness / expected - 1.0).abs() < 1e-12,
+            "{q}: {stiffness}"
+        );
+        let expected = 2.0 * q * q / (1.0 + q * q);
+        for damping in [pair.normal_damping, pair.tangential_damping] {
+            let damping = damping / 0.1257;
+            assert!((damping / expected - 1.0).abs() < 1e-12, "{q}: {damping}");
+        }
+        let range = pair.range2.sqrt() / (2f64.powf(1.0 / 6.0) * 1.203e-3 * sigma);
+        assert!((range - 1.0).abs() < 1e-12, "{q}: {range}");
+    }
+}
+
+#[test]
+fn mixing_is_symmetric_and_equal_grains_keep_their_constants() {
+    let larger = coke().at_diameter(3.1e-3);
+    assert_eq!(coke().mixed(&larger), larger.mixed(&coke()));
+    let own = coke().mixed(&coke());
+    assert_eq!(
+        own,
+        <Repulsion as ContactLaw<Space, Still>>::pair(&coke(), &grain(), &grain())
+    );
+    assert_eq!(own.normal_damping, coke().normal_damping);
+    assert_eq!(own.epsilon24, 24.0 * coke().epsilon);
+    // Undamped grains stay undamped against any others.
+    let undamped = coke().softened(1.0, 0.0, 0.0);
+    assert_eq!(undamped.mixed(&larger).normal_damping, 0.0);
+    assert_eq!(undamped.mixed(&undamped).normal_damping, 0.0);
+    let law = WallGrains {
+        grains: coke(),
+        radius: 0.675e-3,
+    };
+    let pair = <BodyLaw as ContactLaw<Space, Still>>::pair(
+        &BodyLaw::Grains(law),
+        &grain(),
+        &Kind::immovable(),
+    );
+    assert_eq!(pair, BodyPair::Grains(own));
 }
 
 /// The wall's restitution is the one asked for. ζ belongs to the linear spring; the repulsion stiffens
@@ -136,6 +272,27 @@ proptest! {
         let found = breaches::<Space, _>(&wall, &grain, &Kind::immovable(), claims);
         prop_assert!(found.is_empty(), "{found:#?}");
         let found = breaches::<Plane, _>(&wall, &grain, &Kind::immovable(), claims);
+        prop_assert!(found.is_empty(), "{found:#?}");
+    }
+
+    #[test]
+    fn any_wall_of_grains_conforms(
+        log_d in -5.0..0.0f64,
+        log_young in 4.0..11.0f64,
+        density in 100.0..20_000.0f64,
+        zeta in 0.0..1.5f64,
+        tangential in 0.0..3.0f64,
+        size_ratio in 0.1..3.0f64,
+    ) {
+        let d = 10f64.powf(log_d);
+        let grain = Kind::sphere(d, density);
+        let (young, sigma) = (10f64.powf(log_young), Repulsion::sigma_for_diameter(d));
+        let normal = zeta * 2.0 * (young * sigma * 0.5 * grain.mass).sqrt();
+        let grains = Repulsion::from_young_modulus(young, sigma, normal, normal * tangential, d);
+        let law = BodyLaw::Grains(WallGrains { grains, radius: 0.5 * d * size_ratio });
+        let found = breaches::<Space, _>(&law, &grain, &Kind::immovable(), Claims::default());
+        prop_assert!(found.is_empty(), "{found:#?}");
+        let found = breaches::<Plane, _>(&law, &grain, &Kind::immovable(), Claims::default());
         prop_assert!(found.is_empty(), "{found:#?}");
     }
 }

@@ -11,12 +11,15 @@ use tsubu_model::{
 };
 
 /// Where a grain touches a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TouchesAt {
     /// At its surface: s = distance of the centre + d/2.
     Surface,
     /// At its centre, the literal reading of paper A: s = distance of the centre.
     Centre,
+    /// The surface is that of wall grains of this radius in m, the partners of the law:
+    /// s = distance of the centre + radius, the distance of the two centres.
+    WallGrains(f64),
 }
 
 /// A body: a surface, the law of grains against it, and what the grains do to it.
@@ -45,6 +48,11 @@ pub(crate) struct WallPair<P> {
     pub offset: f64,
     /// Distance of the centre from which on there is no force, in m.
     pub reach: f64,
+    /// Radius of the partner in m: of a wall grain, or of the grain's mirror in a surface.
+    pub partner: f64,
+    /// How far behind the surface the partner's velocity is taken and its reaction acts, in m:
+    /// at the centre of a wall grain, at the surface itself else.
+    pub behind: f64,
     /// s is not let below this, so that a grain whose centre is inside is still pushed out, in m.
     pub least: f64,
 }
@@ -98,15 +106,18 @@ impl<D: Layout, W> Body<D, W> {
             .iter()
             .map(|kind| {
                 let pair = self.law.pair(kind, &Kind::immovable());
-                let offset = match self.touches_at {
-                    TouchesAt::Surface => kind.radius,
-                    TouchesAt::Centre => 0.0,
+                let (offset, partner, behind) = match self.touches_at {
+                    TouchesAt::Surface => (kind.radius, kind.radius, 0.0),
+                    TouchesAt::Centre => (0.0, kind.radius, 0.0),
+                    TouchesAt::WallGrains(radius) => (radius, radius, radius),
                 };
                 let range = W::range(&pair);
                 WallPair {
                     pair,
                     offset,
                     reach: range - offset,
+                    partner,
+                    behind,
                     least: 0.1 * range,
                 }
             })
@@ -196,7 +207,8 @@ fn contacts<D, S, K, W>(
                 } else {
                     hit.normal
                 };
-                let contact = D::to_space(line.position::<D>() - normal * hit.distance);
+                let contact =
+                    D::to_space(line.position::<D>() - normal * (hit.distance + wall.behind));
                 let motion = if moved {
                     D::from_space(pose.velocity_at(contact))
                 } else {
@@ -206,7 +218,7 @@ fn contacts<D, S, K, W>(
                     apart: normal * s,
                     velocity: line.velocity::<D>() - motion,
                     r2: s * s,
-                    reach: 2.0 * line.0[D::RADIUS],
+                    reach: line.0[D::RADIUS] + wall.partner,
                     spin: Default::default(),
                 };
                 each(

@@ -12,7 +12,7 @@ pub struct Touch<D: Dim, S: SpinState> {
     pub velocity: D::V,
     /// |apart|² in m².
     pub r2: f64,
-    /// Sum of the two radii in m; against a wall the grain's diameter, the wall being its mirror.
+    /// Sum of the two radii in m; against a surface the grain's diameter, the wall being its mirror.
     pub reach: f64,
     /// r_i ω_i + r_j ω_j in m/s.
     pub spin: S::Turn<D>,

@@ -54,6 +54,6 @@ pub use scene::{
     Axis, Begin, CoarseRule, Conveying, Course, Damping, Domain, End, Fate, Fill, Grains, Hand,
     Initial, Inlet, Integrator, Law, Measures, MeshFile, MeshSurface, Motion, Outlet, Output,
     Region, Removal, Scene, Shape, Shift, SoftenedDamping, Space, StartingGrain, Step, Stiffness,
-    Still, Time, TouchesAt, Turn, Wall,
+    Still, Thin, Time, TouchesAt, Turn, Wall,
 };
 pub use source::Source;

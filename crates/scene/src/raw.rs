@@ -10,7 +10,7 @@ use serde::Deserialize;
 pub(crate) use flow::{RawConveying, RawFate, RawInlet, RawMeasures, RawOutlet};
 pub(crate) use wall::{
     MESH_UNITS, MeshUnit, RawBegin, RawHand, RawMeshFile, RawMotion, RawRemoval, RawShape,
-    RawShift, RawSurface, RawTouchesAt, RawTurn, RawWall,
+    RawShift, RawSurface, RawThin, RawTouchesAt, RawTurn, RawWall,
 };
 
 use crate::quantity::{
@@ -70,7 +70,8 @@ pub(crate) const CHOICES: &[(&str, &[&str])] = &[
         ],
     ),
     ("hand", &["Right", "Left"]),
-    ("surface", &["Grid", "Exact"]),
+    ("surface", &["Grid", "Exact", "Grains"]),
+    ("thin", &["Leave", "OneLayer"]),
     ("touches_at", &["Surface", "Centre"]),
     ("removed", &["Never", "WhenStill", "At"]),
     ("begins", &["WhenStill", "At"]),
@@ -297,6 +298,7 @@ mod tests {
             accepted::<RawShape>(),
             accepted::<RawHand>(),
             accepted::<RawSurface>(),
+            accepted::<RawThin>(),
             accepted::<RawTouchesAt>(),
             accepted::<RawRemoval>(),
             accepted::<RawBegin>(),

@@ -11,7 +11,7 @@ use glam::DVec3;
 
 pub use flow::{Conveying, Fate, Inlet, Measures, Outlet, Region};
 pub use motion::{Begin, Course, Motion, Shift, Turn};
-pub use wall::{Hand, MeshFile, MeshSurface, Removal, Shape, TouchesAt, Wall};
+pub use wall::{Hand, MeshFile, MeshSurface, Removal, Shape, Thin, TouchesAt, Wall};
 
 /// A scene that has passed every check of this crate; all numbers are SI.
 #[derive(Clone, Debug, PartialEq)]

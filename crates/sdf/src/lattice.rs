@@ -2,6 +2,7 @@
 
 use crate::solid::{Misshapen, demand, demand_length};
 use glam::DVec3;
+use rayon::prelude::*;
 use std::collections::HashMap;
 use tsubu_model::{HitBuffer, Space, Surface};
 
@@ -22,8 +23,10 @@ const LAYER: f64 = 1.5;
 const SEEDS: f64 = 0.5;
 /// The cosine between the outward normals of two faces that count as opposite: a wedge of 37° does.
 const OPPOSITE: f64 = -0.8;
+/// Tries to find the middle between two faces; opposite ones need ten at most.
+const MOST_TRIES: usize = 30;
 /// The most places that are tried; above it a radius is more likely a slip of units.
-const MOST: f64 = 2e8;
+const MOST: f64 = 2e9;
 
 /// Centres of grains of radius `rs` (m) on an fcc lattice inside a body.
 ///
@@ -38,7 +41,8 @@ const MOST: f64 = 2e8;
 /// stick out of both faces by rs − half the thickness: a body of grains is thicker there than its
 /// surface. Edges of thick parts are not filled up.
 ///
-/// An error if `rs` is not a positive length or so small that more than 2e8 places would be tried.
+/// An error if `rs` is not a positive length or so small that more than 2e9 places would be tried. Rows of
+/// places are walked in strides of the distance, on all cores; the result does not depend on them.
 ///
 /// ```
 /// use glam::DVec3;
@@ -71,19 +75,21 @@ pub fn fill_fcc(
     demand(places < MOST, || {
         format!("grains of {rs} m in a box of {size} m would need {places:.1e} places to be tried")
     })?;
-    let mut probe = Probe {
-        surface,
-        out: HitBuffer::default(),
-    };
-    let mut centres = lattice(&mut probe, bounds, rs);
+    let mut centres = lattice(surface, bounds, rs);
     if thin == Thin::OneLayer {
-        add_layer(&mut probe, bounds, rs, &mut centres);
+        add_layer(surface, bounds, rs, &mut centres);
     }
     Ok(centres)
 }
 
+/// How many steps of this length lie within `free`, at least one.
+fn stride(free: f64, step: f64) -> u64 {
+    // Rounding may not carry over a place at the end.
+    ((free / step * (1.0 - 1e-9)) as u64).max(1)
+}
+
 /// The fcc places whose grains lie inside.
-fn lattice(probe: &mut Probe, [low, high]: [DVec3; 2], rs: f64) -> Vec<DVec3> {
+fn lattice(surface: &dyn Surface<Space>, [low, high]: [DVec3; 2], rs: f64) -> Vec<DVec3> {
     let half = std::f64::consts::SQRT_2 * rs;
     let deep_enough = rs * (1.0 - 1e-9);
     let count = |a: usize| {
@@ -92,45 +98,68 @@ fn lattice(probe: &mut Probe, [low, high]: [DVec3; 2], rs: f64) -> Vec<DVec3> {
         (room / half + 1e-9).floor()
     };
     let counts = [count(0), count(1), count(2)];
-    let mut centres = Vec::new();
     if counts.iter().any(|&c| c < 0.0) {
-        return centres;
+        return Vec::new();
     }
     let [nx, ny, nz] = counts.map(|c| c as u64);
-    for k in 0..=nz {
+    let layer = |k: u64| {
+        let mut probe = Probe::new(surface);
+        let mut taken = Vec::new();
         for j in 0..=ny {
             // Every second place of the grid of half constants, in a chequerboard.
-            for i in ((j + k) % 2..=nx).step_by(2) {
+            let mut i = (j + k) % 2;
+            while i <= nx {
                 let x = low + rs + half * DVec3::new(i as f64, j as f64, k as f64);
-                if probe.depth(x, deep_enough) >= deep_enough {
-                    centres.push(x);
+                // How far around no grain is inside.
+                let free = surface.lower_bound(x) + deep_enough;
+                if free <= 0.0 && probe.depth(x, 0.0) >= deep_enough {
+                    taken.push(x);
                 }
+                i += 2 * stride(free, 2.0 * half);
             }
         }
-    }
-    centres
+        taken
+    };
+    (0..=nz).into_par_iter().flat_map_iter(layer).collect()
 }
 
 /// Adds grains on the middle surface of parts thinner than a grain.
-fn add_layer(probe: &mut Probe, [low, high]: [DVec3; 2], rs: f64, centres: &mut Vec<DVec3>) {
+fn add_layer(
+    surface: &dyn Surface<Space>,
+    [low, high]: [DVec3; 2],
+    rs: f64,
+    centres: &mut Vec<DVec3>,
+) {
     let mut near = Near::new(LAYER * rs);
     for &x in centres.iter() {
         near.add(x);
     }
     let step = SEEDS * rs;
     let [nx, ny, nz] = ((high - low) / step).ceil().to_array().map(|n| n as u64);
-    for k in 0..=nz {
+    let layer = |k: u64| {
+        let mut probe = Probe::new(surface);
+        let mut middles = Vec::new();
         for j in 0..=ny {
-            for i in 0..=nx {
+            let mut i = 0;
+            while i <= nx {
                 let seed = low + step * DVec3::new(i as f64, j as f64, k as f64);
-                let Some(middle) = probe.middle(seed, step, rs) else {
-                    continue;
-                };
-                if !near.has_one_at(middle) {
-                    near.add(middle);
-                    centres.push(middle);
+                match probe.face(seed, step) {
+                    Ok(face) => {
+                        middles.extend(probe.middle(face, rs));
+                        i += 1;
+                    }
+                    Err(free) => i += stride(free, step),
                 }
             }
+        }
+        middles
+    };
+    let middles: Vec<DVec3> = (0..=nz).into_par_iter().flat_map_iter(layer).collect();
+    // In the order of the seeds, since each grain keeps later ones away.
+    for middle in middles {
+        if !near.has_one_at(middle) {
+            near.add(middle);
+            centres.push(middle);
         }
     }
 }
@@ -141,12 +170,16 @@ struct Probe<'a> {
     out: HitBuffer<Space>,
 }
 
-impl Probe<'_> {
+impl<'a> Probe<'a> {
+    fn new(surface: &'a dyn Surface<Space>) -> Self {
+        Self {
+            surface,
+            out: HitBuffer::default(),
+        }
+    }
+
     /// The nearest place: distance and normal, if it is nearer than `reach`.
     fn nearest(&mut self, x: DVec3, reach: f64) -> Option<(f64, DVec3)> {
-        if self.surface.lower_bound(x) >= reach {
-            return None;
-        }
         self.out.hits.clear();
         self.surface.hits(&[x], &[reach], &mut self.out);
         let hits = self.out.hits.iter();
@@ -154,38 +187,48 @@ impl Probe<'_> {
         Some((hit.distance, hit.normal))
     }
 
-    /// How deep inside a point is in m; zero outside. Points less deep than `wanted` by their bound
-    /// may be answered by zero without being asked in full.
-    fn depth(&mut self, x: DVec3, wanted: f64) -> f64 {
-        if self.surface.lower_bound(x) > -wanted {
-            return 0.0;
-        }
-        self.nearest(x, 0.0).map_or(0.0, |(distance, _)| -distance)
+    /// How deep inside a point is in m; negative outside, where it is not known beyond `reach`.
+    fn depth(&mut self, x: DVec3, reach: f64) -> f64 {
+        let nearest = self.nearest(x, reach);
+        nearest.map_or(-reach, |(distance, _)| -distance)
     }
 
-    /// The middle between the face nearest to `seed` and the opposite one, if the seed is within
-    /// `step` of a face and the two are less than 2 rs apart.
-    fn middle(&mut self, seed: DVec3, step: f64, rs: f64) -> Option<DVec3> {
-        let (distance, normal) = self.nearest(seed, step)?;
-        if distance < -step {
-            return None;
+    /// The nearest place of the surface and its normal, if it is within `step` of the seed; else how
+    /// far around the seed there is none within `step` either, in m.
+    fn face(&mut self, seed: DVec3, step: f64) -> Result<(DVec3, DVec3), f64> {
+        let bound = self.surface.lower_bound(seed);
+        if bound >= step {
+            return Err(bound - step);
         }
-        let face = seed - normal * distance;
+        match self.nearest(seed, step) {
+            None => Err(0.0),
+            Some((distance, _)) if distance < -step => Err(-distance - step),
+            Some((distance, normal)) => Ok((seed - normal * distance, normal)),
+        }
+    }
+
+    /// The middle between a face, given by a place and its normal, and the opposite one, if the two
+    /// are less than 2 rs apart.
+    fn middle(&mut self, (face, normal): (DVec3, DVec3), rs: f64) -> Option<DVec3> {
         let at = |s: f64| face - normal * s;
-        if self.depth(at(rs), 0.0) >= rs * (1.0 - 1e-6) {
+        // Inwards the depth is the way gone until the opposite face is as near: the middle. Beyond it
+        // the depth falls as fast as the way grows, if that face is parallel, so that the next try is
+        // in the middle of both; another face takes a few tries more.
+        let mut top = rs;
+        for tries in 0.. {
+            let depth = self.depth(at(top), 2.0 * rs);
+            if depth >= top - 1e-7 * rs {
+                break;
+            }
+            if tries == MOST_TRIES {
+                return None;
+            }
+            top = 0.5 * (top + depth);
+        }
+        // A part that holds a whole grain, or the face of a point.
+        if top >= rs * (1.0 - 1e-6) || top <= 1e-6 * rs {
             return None;
         }
-        // Inwards the depth is the way gone until the opposite face is as near: the middle.
-        let (mut low, mut high) = (0.0, rs);
-        while high - low > 1e-7 * rs {
-            let s = 0.5 * (low + high);
-            if self.depth(at(s), 0.0) >= s - 1e-9 * rs {
-                low = s;
-            } else {
-                high = s;
-            }
-        }
-        let top = 0.5 * (low + high);
         let aside = (0.01 * rs).min(0.5 * top);
         // Only between two faces that look away from each other: not at the edge of a thick part.
         let before = self.nearest(at(top - aside), 0.0)?.1;

@@ -20,7 +20,8 @@
 //! suite cannot see a surface that is consistently the wrong one; [`Options::inside`] brings in a
 //! word from outside, and [`Options::expects`] says how many hits a concave place has.
 //!
-//! [`Surface::hits`] may answer for a point inside the body with its nearest hit only.
+//! [`Surface::hits`] may answer for a point inside the body with its nearest hit only. A body that is a
+//! union of parts, each with a hit of its own on either side, says so with [`Options::union`].
 
 mod checks;
 mod points;
@@ -38,6 +39,8 @@ pub struct Options<'a, D: Dim> {
     inside: Option<&'a dyn Fn(D::V) -> bool>,
     special: Vec<D::V>,
     expected: Vec<(D::V, f64, usize)>,
+    union: bool,
+    drawn_within: f64,
 }
 
 impl<D: Dim> Default for Options<'_, D> {
@@ -50,6 +53,8 @@ impl<D: Dim> Default for Options<'_, D> {
             inside: None,
             special: Vec::new(),
             expected: Vec::new(),
+            union: false,
+            drawn_within: 0.0,
         }
     }
 }
@@ -84,6 +89,24 @@ impl<'a, D: Dim> Options<'a, D> {
     pub fn special(mut self, points: impl IntoIterator<Item = D::V>) -> Self {
         self.special.extend(points);
         self
+    }
+
+    /// The body is the union of parts, told apart by their features, and every part within reach is a
+    /// hit, also where x is inside another. Then its distance is the least of them with its sign, and
+    /// the foot of a hit lies on the part that is hit.
+    pub fn union(self) -> Self {
+        Self {
+            union: true,
+            ..self
+        }
+    }
+
+    /// The shell is a picture that may be off the surface by so much (m).
+    pub fn drawn_within(self, off: f64) -> Self {
+        Self {
+            drawn_within: off,
+            ..self
+        }
     }
 
     /// At `x` a grain of this reach has so many hits: for corners, gaps and edges.

@@ -1,7 +1,7 @@
 //! The conformance suite catches surfaces that are wrong on purpose, and names what is wrong.
 
 use glam::DVec3;
-use tsubu_model::{HitBuffer, Space, Surface};
+use tsubu_model::{Hit, HitBuffer, Space, Surface};
 use tsubu_sdf::testing::{Check, Options, Report, examine};
 use tsubu_sdf::{Cavity, Cuboid};
 
@@ -239,4 +239,71 @@ fn points_of_a_batch_that_are_mixed_up_are_caught() {
     let region = [DVec3::splat(-1.0), DVec3::splat(2.0)];
     let report = examine::<Space>(&Swapped(body()), region, &Options::default());
     assert!(report.fails(Check::Batch), "{report}");
+}
+
+/// Two balls that overlap, with one fault in the hits of a query.
+struct Balls<F>(F);
+
+const BALLS: [DVec3; 2] = [DVec3::splat(0.3), DVec3::splat(0.6)];
+
+impl<F: Fn(&mut Vec<Hit<Space>>) + Send + Sync> Surface<Space> for Balls<F> {
+    fn lower_bound(&self, x: DVec3) -> f64 {
+        let away = BALLS.map(|c| (x - c).length() - 0.4);
+        away[0].min(away[1])
+    }
+
+    fn hits(&self, x: &[DVec3], reach: &[f64], out: &mut HitBuffer<Space>) {
+        for (of, (&x, &reach)) in x.iter().zip(reach).enumerate() {
+            let mut hits = Vec::new();
+            for (feature, c) in (0u32..).zip(BALLS) {
+                let distance = (x - c).length() - 0.4;
+                if distance < reach {
+                    hits.push(Hit {
+                        of: of as u32,
+                        distance,
+                        normal: (x - c).normalize(),
+                        feature,
+                    });
+                }
+            }
+            (self.0)(&mut hits);
+            out.hits.extend(hits);
+        }
+    }
+
+    fn outline(&self, _: DVec3, _: DVec3) -> Vec<[DVec3; 2]> {
+        Vec::new()
+    }
+}
+
+fn union(spoil: impl Fn(&mut Vec<Hit<Space>>) + Send + Sync) -> Report {
+    let inside = |x: DVec3| BALLS.iter().any(|c| (x - *c).length() < 0.4);
+    let options = Options::default().union().inside(&inside);
+    examine::<Space>(
+        &Balls(spoil),
+        [DVec3::splat(-1.0), DVec3::splat(2.0)],
+        &options,
+    )
+}
+
+#[test]
+fn a_union_passes_and_one_that_loses_the_part_it_is_in_is_caught() {
+    let report = union(|_| ());
+    assert!(report.breaches.is_empty(), "{report}");
+    // Of several hits only the one whose surface is nearest: then the sign is wrong within the other.
+    let report = union(|hits| {
+        hits.sort_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
+        hits.truncate(1);
+    });
+    assert!(
+        report.fails(Check::Sign) && report.fails(Check::Lipschitz),
+        "{report}"
+    );
+    // Normals of one part bent: its feet are off it.
+    let report = union(|hits| {
+        for hit in hits.iter_mut().filter(|h| h.feature == 1) {
+            hit.normal = (hit.normal + DVec3::X * 0.01).normalize();
+        }
+    });
+    assert!(report.fails(Check::Foot), "{report}");
 }

@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 use tsubu_model::{Plane, Space, Surface};
 use tsubu_sdf::testing::{Options, conforms};
 use tsubu_sdf::{
-    Ball, Cavity, Cone, Cuboid, Cylinder, HalfSpace, Hand, HollowCone, Screw, ScrewSize, Torus,
-    Tube,
+    Ball, Cavity, Cone, Cuboid, Cylinder, GrainBody, GrainBodyOptions, HalfSpace, Hand, HollowCone,
+    Mesh, Screw, ScrewSize, Torus, Tube,
 };
 
 /// A region around the unit box, so that points lie well inside and outside.
@@ -215,5 +215,52 @@ fn screw() {
             .samples(3000)
             .expects(DVec3::new(near, high, 0.0), 0.4 * t, 2);
         conforms::<Space>(&screw, region, &options);
+    }
+}
+
+/// The body of grains that fills a surface.
+fn of_grains(surface: &dyn Surface<Space>, radius: f64, reach: f64) -> GrainBody {
+    let shell = surface.shell().unwrap();
+    let mesh = Mesh {
+        vertices: shell.vertices,
+        triangles: shell.triangles,
+        parts: Vec::new(),
+    };
+    GrainBody::build(&mesh, &GrainBodyOptions::new(radius, reach)).unwrap()
+}
+
+#[test]
+fn bodies_of_grains() {
+    // A block with few large grains, a plate with one layer that sticks out, and a screw.
+    let block = Cuboid::<Space>::new(DVec3::ZERO, DVec3::new(1.0, 0.8, 0.6)).unwrap();
+    let plate = Cuboid::<Space>::new(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.1)).unwrap();
+    let size = ScrewSize {
+        shaft: 0.15,
+        outer: 0.5,
+        pitch: 0.6,
+        thickness: 0.1,
+    };
+    let screw = Screw::new(DVec3::ZERO, DVec3::X, size, Hand::Right).unwrap();
+    for (surface, radius) in [
+        (&block as &dyn Surface<Space>, 0.07),
+        (&plate, 0.08),
+        (&screw, 0.05),
+    ] {
+        // Grains that reach further than the cells do are found all the same.
+        for reach in [0.05, 0.5] {
+            let body = of_grains(surface, radius, reach);
+            let inside = |x: DVec3| body.centres().iter().any(|c| (*c - x).length() < radius);
+            let first = body.centres()[0];
+            // The corners of the mesh are off the wall grains by what the lattice leaves free there.
+            let options = Options::default()
+                .union()
+                .drawn_within(5.0 * radius)
+                .inside(&inside)
+                .special([first, first + DVec3::X * radius])
+                .samples(600)
+                .expects(first - DVec3::X * (1.5 * radius), 0.50001 * radius, 1)
+                .expects(first, f64::INFINITY, body.count());
+            conforms::<Space>(&body, REGION, &options);
+        }
     }
 }

@@ -83,6 +83,17 @@ pub(crate) enum RawSurface {
         exact_edges: Option<bool>,
     },
     Exact,
+    Grains {
+        radius: Quantity<Length>,
+        thin: Option<RawThin>,
+    },
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "thin")]
+pub(crate) enum RawThin {
+    Leave,
+    OneLayer,
 }
 
 #[derive(Deserialize)]

@@ -20,7 +20,9 @@ impl Wall {
         if let Some(friction) = self.friction {
             writeln!(out, "            friction: {friction:?},")?;
         }
-        writeln!(out, "            touches_at: {:?},", self.touches_at)?;
+        if self.shape.wall_grains().is_none() {
+            writeln!(out, "            touches_at: {:?},", self.touches_at)?;
+        }
         let removed = match self.removed {
             Removal::Never => "Never".into(),
             Removal::WhenStill => "WhenStill".into(),
@@ -152,6 +154,9 @@ fn fields(shape: &Shape) -> String {
         } => {
             let surface = match surface {
                 MeshSurface::Exact => "Exact".into(),
+                MeshSurface::Grains { radius, thin } => {
+                    format!("Grains(radius: {}, thin: {thin:?})", length(*radius))
+                }
                 MeshSurface::Grid { cell, exact_edges } => {
                     let cell =
                         cell.map_or(String::new(), |cell| format!("cell: {}, ", length(cell)));

@@ -6,8 +6,8 @@ use super::Rules;
 use super::room::periods;
 use super::vectors::{lengths, numbers};
 use crate::quantity::{Length, Number, Quantity, Triple};
-use crate::raw::{MeshUnit, RawHand, RawRegion, RawShape, RawSurface};
-use crate::scene::{Domain, Hand, MeshFile, MeshSurface, Region, Shape, Space};
+use crate::raw::{MeshUnit, RawHand, RawRegion, RawShape, RawSurface, RawThin};
+use crate::scene::{Domain, Hand, MeshFile, MeshSurface, Region, Shape, Space, Thin};
 
 impl Rules<'_> {
     pub(super) fn shape(&mut self, path: &str, raw: &RawShape, domain: &Domain) -> Shape {
@@ -222,6 +222,17 @@ impl Rules<'_> {
         match raw {
             None => MeshSurface::default(),
             Some(RawSurface::Exact) => MeshSurface::Exact,
+            Some(RawSurface::Grains { radius, thin }) => MeshSurface::Grains {
+                radius: self.above_zero(
+                    &format!("{path}.radius"),
+                    "the radius of the wall grains",
+                    radius.0,
+                ),
+                thin: match thin {
+                    None | Some(RawThin::OneLayer) => Thin::OneLayer,
+                    Some(RawThin::Leave) => Thin::Leave,
+                },
+            },
             Some(RawSurface::Grid { cell, exact_edges }) => MeshSurface::Grid {
                 cell: cell.map(|cell| {
                     self.above_zero(&format!("{path}.cell"), "the width of a cell", cell.0)

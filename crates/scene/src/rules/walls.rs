@@ -12,6 +12,9 @@ impl Rules<'_> {
             let twice = walls.iter().any(|wall| wall.name == raw.name);
             self.name(&path, ["a wall", "two walls"], &raw.name, twice);
             let shape = self.shape(&format!("{path}.shape"), &raw.shape, domain);
+            if shape.wall_grains().is_some() {
+                self.of_grains(&path, &raw);
+            }
             let restitution = raw.restitution.map(|restitution| restitution.0);
             if restitution.is_some_and(|restitution| !(restitution > 0.0 && restitution <= 1.0)) {
                 let remedy =
@@ -55,6 +58,23 @@ impl Rules<'_> {
             });
         }
         walls
+    }
+
+    /// Refuses what a body built of grains has not: grains touch it as they touch each other.
+    fn of_grains(&mut self, path: &str, raw: &RawWall) {
+        for (field, given) in [
+            ("restitution", raw.restitution.is_some()),
+            ("friction", raw.friction.is_some()),
+            ("touches_at", raw.touches_at.is_some()),
+        ] {
+            if given {
+                self.refuse(
+                    format!("{path}.{field}"),
+                    format!("a body built of grains has no {field}: grains touch it by their own law"),
+                    format!("leave the field out, or write {field}=None in an override; or choose surface: Grid() or Exact"),
+                );
+            }
+        }
     }
 
     /// Refuses a motion that begins when its wall is gone.

@@ -13,9 +13,9 @@ pub struct Wall {
     pub name: String,
     /// Its surface.
     pub shape: Shape,
-    /// Restitution in (0, 1]; `None`: elastic, without damping.
+    /// Restitution in (0, 1]; `None`: elastic, without damping, or built of grains.
     pub restitution: Option<f64>,
-    /// Coefficient of kinetic friction; `None`: smooth.
+    /// Coefficient of kinetic friction; `None`: smooth, or built of grains.
     pub friction: Option<f64>,
     /// Where a grain touches it.
     pub touches_at: TouchesAt,
@@ -122,6 +122,17 @@ impl Shape {
             Shape::Mesh { .. } => "Mesh",
         }
     }
+
+    /// Radius of its wall grains, m, if it is a body built of grains.
+    pub fn wall_grains(&self) -> Option<f64> {
+        match self {
+            Shape::Mesh {
+                surface: MeshSurface::Grains { radius, .. },
+                ..
+            } => Some(*radius),
+            _ => None,
+        }
+    }
 }
 
 /// The sense in which the flight of a screw winds.
@@ -155,6 +166,24 @@ pub enum MeshSurface {
     },
     /// From the triangles.
     Exact,
+    /// The mesh is filled with wall grains, and grains touch these by their own law: such a wall has
+    /// no restitution and no friction, and `touches_at` says nothing.
+    Grains {
+        /// Radius of a wall grain, m, above zero; a coarse level leaves it as it is.
+        radius: f64,
+        /// What becomes of parts too thin to hold a wall grain.
+        thin: Thin,
+    },
+}
+
+/// What becomes of parts of a body of grains that are too thin to hold a grain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Thin {
+    /// They stay empty.
+    Leave,
+    /// One layer of grains in their middle, sticking out of both faces alike.
+    #[default]
+    OneLayer,
 }
 
 impl Default for MeshSurface {

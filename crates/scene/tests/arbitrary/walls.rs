@@ -34,6 +34,11 @@ pub fn wall() -> impl Strategy<Value = Wall> {
                     removed,
                     motion,
                 };
+                // A body of grains is touched by the grains' own law.
+                if wall.shape.wall_grains().is_some() {
+                    (wall.restitution, wall.friction) = (None, None);
+                    wall.touches_at = TouchesAt::default();
+                }
                 // A wall that is gone does not begin to move.
                 match (
                     wall.removed,
@@ -115,6 +120,8 @@ fn round() -> impl Strategy<Value = Shape> {
 fn mesh() -> impl Strategy<Value = Shape> {
     let surface = prop_oneof![
         Just(MeshSurface::Exact),
+        (size(), prop_oneof![Just(Thin::Leave), Just(Thin::OneLayer)])
+            .prop_map(|(radius, thin)| MeshSurface::Grains { radius, thin }),
         (of(size()), any::<bool>())
             .prop_map(|(cell, exact_edges)| MeshSurface::Grid { cell, exact_edges }),
     ];

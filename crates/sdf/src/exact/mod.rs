@@ -74,13 +74,13 @@ impl ExactMesh {
         let (pieces, edges) = shells(&mesh);
         let off = 1e-4 * mesh.diagonal();
         let coarse =
-            DistanceGrid::coarse(&mesh, half_wall.map(|h| 2.0 * h)).map_err(
-                |error| match error {
+            DistanceGrid::coarse(&mesh, half_wall.map(|h| 2.0 * h), 48.0).map_err(|error| {
+                match error {
                     GridError::Mesh(error) => error,
                     // The options are ours and fit; a mesh too flat for a grid has no area either.
                     _ => MeshError::NoArea,
-                },
-            )?;
+                }
+            })?;
         let [low, high] = mesh.bounds();
         let margin = DVec3::splat(half_wall.unwrap_or(0.0));
         Ok(Self {

@@ -36,10 +36,14 @@ impl DistanceGrid {
         Self::fill(mesh, options, progress)
     }
 
-    /// A grid of some fifty cells along the longest side, for bounds only. The mesh is repaired already.
-    pub(crate) fn coarse(mesh: &Mesh, thickness: Option<f64>) -> Result<Self, GridError> {
+    /// A grid of so many cells along the longest side, for bounds only. The mesh is repaired already.
+    pub(crate) fn coarse(
+        mesh: &Mesh,
+        thickness: Option<f64>,
+        cells: f64,
+    ) -> Result<Self, GridError> {
         let [low, high] = mesh.bounds();
-        let cell = (high - low).max_element() / 48.0;
+        let cell = (high - low).max_element() / cells;
         let options = GridOptions {
             thickness,
             ..GridOptions::new(cell, 2.0 * cell)

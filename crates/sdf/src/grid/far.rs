@@ -6,9 +6,10 @@ use rayon::prelude::*;
 /// Half the diagonal of a cell, in cells, √3/2 and a little for rounding: every point of the surface has a node this close.
 const BESIDE: f64 = 0.8661;
 
-/// For each node the square of its distance, in cells, from the nearest node beside the surface;
+/// For each node the square of its distance, in cells, from the nearest node beside the surface,
+/// one whose distance is half a cell's diagonal at most;
 /// z runs fastest, then x, then y. Source: Felzenszwalb2012.
-pub(super) fn squared_cells(nodes: &Nodes, distances: &[f32]) -> Vec<f32> {
+pub(crate) fn squared_cells(nodes: &Nodes, distances: &[f32]) -> Vec<f32> {
     let [nx, ny, nz] = nodes.counts;
     let beside = (BESIDE * nodes.cell) as f32;
     let mut plane: Vec<f32> = distances

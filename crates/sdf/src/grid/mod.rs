@@ -11,11 +11,12 @@ mod sign;
 mod tests;
 
 pub use error::GridError;
+pub(crate) use far::squared_cells;
+pub(crate) use nodes::Nodes;
 
 use crate::exact::ExactMesh;
 use crate::mesh::Mesh;
 use glam::DVec3;
-use nodes::Nodes;
 
 /// How a distance grid is made.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 /// A regular grid; x runs fastest, then y, then z.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Nodes {
+pub(crate) struct Nodes {
     pub low: DVec3,
     pub cell: f64,
     pub counts: [usize; 3],

@@ -227,7 +227,13 @@ pub(super) fn foot<D: Dim>(trial: &Trial<D>) -> Worst {
     for &x in &trial.points {
         for hit in trial.hits(x, trial.options.reach) {
             let foot = x - hit.normal * hit.distance;
-            let distance = trial.distance(foot).unwrap_or(f64::INFINITY);
+            let distance = if trial.options.union {
+                let there = trial.hits(foot, trial.options.reach);
+                let same = there.iter().find(|h| h.feature == hit.feature);
+                same.map_or(f64::INFINITY, |h| h.distance)
+            } else {
+                trial.distance(foot).unwrap_or(f64::INFINITY)
+            };
             worst.see(distance.abs(), 4.0 * trial.slack, || {
                 format!("at {x:?} {hit:?} points to {foot:?}, {distance} m off the surface")
             });
@@ -270,7 +276,8 @@ pub(super) fn drawing<D: Dim>(trial: &Trial<D>) -> Worst {
         }
         if let Some(distance) = trial.distance(flat) {
             // A pole of a cap or the middle of an end is on the surface, too.
-            worst.see(distance.abs(), 4.0 * trial.slack, || {
+            let off = distance.abs() - trial.options.drawn_within;
+            worst.see(off, 4.0 * trial.slack, || {
                 format!("the corner {corner} of the shell is {distance} m off the surface")
             });
         }

@@ -83,8 +83,12 @@ impl<'a, D: Dim> Trial<'a, D> {
     /// The nearest hit within the reach at which the surface knows itself.
     pub(super) fn nearest(&self, x: D::V) -> Option<Hit<D>> {
         let hits = self.hits(x, self.options.reach);
-        hits.into_iter()
-            .min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()))
+        // Inside one part of a union the surface of another may be nearer than the union's own.
+        let size = |hit: &Hit<D>| match self.options.union {
+            true => hit.distance,
+            false => hit.distance.abs(),
+        };
+        hits.into_iter().min_by(|a, b| size(a).total_cmp(&size(b)))
     }
 
     /// The distance of a point, if the surface knows it.
