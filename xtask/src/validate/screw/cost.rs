@@ -39,11 +39,13 @@ pub fn run(report: &mut Report, root: &Path, print: u64) -> Result<(), String> {
             cost: f64::INFINITY,
         })
     };
+    let [triangles, formula] =
+        [Kind::Triangles, Kind::Analytic].map(|kind| kind.shape("screw.stl", [0.0, 675.0]));
     let no_walls = ["screw", "casing", "hopper"].map(|wall| (wall, AWAY));
     let mut ways = [
         with("a grid of distances (2 mm)", &[])?,
-        with("triangles", &[("screw", Kind::Triangles.shape())])?,
-        with("formula", &[("screw", Kind::Analytic.shape())])?,
+        with("triangles", &[("screw", triangles.as_str())])?,
+        with("formula", &[("screw", formula.as_str())])?,
         with("no screw", &no_walls[..1])?,
         with("no walls", &no_walls)?,
     ];

@@ -6,6 +6,7 @@
 
 mod cost;
 mod full;
+mod grains;
 mod kept;
 mod ladder;
 mod levels;
@@ -51,7 +52,9 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     }
     let compared = comparisons(report, &base, &one[0], &all)?;
     report.progress(&format!("{compared} comparisons at n = 4"));
-    // The long ones start in the flow of these two, whose tubes are full.
+    grains::in_the_feeder(report, &all)?;
+    grains::in_the_section(report)?;
+    // The long ones start in the flow of the first of these two, whose tube is full.
     all(&[Case::of(3, 60.0), Case::of(3, 60.0).touching_at_centres()])?;
     report.progress("60 r/min at n = 3, both readings of the walls");
     let mut cases: Vec<Case> = SPEEDS.iter().map(|&rpm| Case::of(3, rpm)).collect();

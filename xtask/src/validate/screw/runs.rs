@@ -18,21 +18,55 @@ pub enum Kind {
     Triangles,
     /// The analytic surface.
     Analytic,
+    /// Wall grains of this radius in µm that fill the same file.
+    Grains(u32),
 }
 
 impl Kind {
-    /// The shape as a scene says it.
-    pub fn shape(self) -> &'static str {
-        match self {
-            Kind::Grid => {
-                "Mesh(file: \"meshes/screw.stl\", unit: \"mm\", surface: Grid(cell: \"2 mm\"))"
+    /// The shape of the screw as a scene says it, from a file or along x between two places in mm.
+    pub fn shape(self, file: &str, [from, to]: [f64; 2]) -> String {
+        let surface = match self {
+            Kind::Grid => "Grid(cell: \"2 mm\")".to_owned(),
+            Kind::Triangles => "Exact".to_owned(),
+            Kind::Grains(radius) => {
+                format!("Grains(radius: \"{} mm\")", f64::from(radius) * 1e-3)
             }
-            Kind::Triangles => "Mesh(file: \"meshes/screw.stl\", unit: \"mm\", surface: Exact)",
             Kind::Analytic => {
-                "Screw(from: (\"0 mm\", \"0 mm\", \"0 mm\"), to: (\"675 mm\", \"0 mm\", \"0 mm\"), shaft: \"55 mm\", outer: \"205 mm\", pitch: \"150 mm\", thickness: \"6 mm\")"
+                return format!(
+                    "Screw(from: (\"{from} mm\", \"0 mm\", \"0 mm\"), to: (\"{to} mm\", \"0 mm\", \"0 mm\"), shaft: \"55 mm\", outer: \"205 mm\", pitch: \"150 mm\", thickness: \"6 mm\")"
+                );
             }
+        };
+        format!("Mesh(file: \"meshes/{file}\", unit: \"mm\", surface: {surface})")
+    }
+
+    /// Changes of a scene after which its screw is of this kind. What holds of surfaces is left out of wall grains.
+    pub fn sets(self, file: &str, ends: [f64; 2]) -> Vec<String> {
+        let mut sets = vec![format!("walls.screw.shape={}", self.shape(file, ends))];
+        if matches!(self, Kind::Grains(_)) {
+            sets.push("walls.screw.restitution=None".to_owned());
+            sets.push("walls.screw.friction=None".to_owned());
+        }
+        sets
+    }
+
+    /// As the table calls it.
+    pub fn name(self) -> String {
+        match self {
+            Kind::Grid => "a grid of distances".into(),
+            Kind::Triangles => "triangles".into(),
+            Kind::Analytic => "a formula".into(),
+            Kind::Grains(radius) => format!("grains of rs = {} mm", f64::from(radius) * 1e-3),
         }
     }
+}
+
+/// Changes after which a wall only repels: no friction, no damping.
+pub fn repelling(wall: &str) -> [String; 2] {
+    [
+        format!("walls.{wall}.restitution=None"),
+        format!("walls.{wall}.friction=None"),
+    ]
 }
 
 /// One run.
@@ -52,6 +86,8 @@ pub struct Case {
     pub at_centres: bool,
     /// What the screw is made of.
     pub kind: Kind,
+    /// The casing only repels (physics of paper A's fig. 4).
+    pub smooth: bool,
 }
 
 impl Case {
@@ -65,6 +101,7 @@ impl Case {
             friction: 0.413,
             at_centres: false,
             kind: Kind::Grid,
+            smooth: false,
         }
     }
 
@@ -84,7 +121,12 @@ impl Case {
 
     /// How the walls are read, as names of files say it.
     fn place(&self) -> &'static str {
-        if self.at_centres { "centre" } else { "surface" }
+        match (self.at_centres, self.smooth) {
+            (true, false) => "centre",
+            (false, false) => "surface",
+            (true, true) => "centre-smooth",
+            (false, true) => "surface-smooth",
+        }
     }
 
     /// Seconds from the start of the screw: until the tube is full (its length over p n, a tenth slower),
@@ -110,15 +152,21 @@ impl Case {
         let mut sets = vec![
             format!("grains.coarse={}", self.coarse),
             format!("grains.soften={}", self.soften),
-            format!("walls.screw.shape={}", self.kind.shape()),
             format!("walls.screw.motion.turn.rate=-{} rpm", self.rpm),
             format!("time.until={} s", self.until()),
             "still.at_most=10 s".to_owned(),
         ];
         let centre = if self.at_centres { "Centre" } else { "Surface" };
         for wall in ["screw", "casing", "hopper"] {
-            sets.push(format!("walls.{wall}.friction={}", self.friction));
-            sets.push(format!("walls.{wall}.touches_at={centre}"));
+            let made_of_grains = wall == "screw" && matches!(self.kind, Kind::Grains(_));
+            if !made_of_grains {
+                sets.push(format!("walls.{wall}.friction={}", self.friction));
+                sets.push(format!("walls.{wall}.touches_at={centre}"));
+            }
+        }
+        sets.extend(self.kind.sets("screw.stl", [0.0, 675.0]));
+        if self.smooth {
+            sets.extend(repelling("casing"));
         }
         sets
     }
@@ -140,16 +188,23 @@ impl Case {
         ))
     }
 
-    /// Places of the settled grains, made once for each level and reading of the walls.
+    /// Places of the settled grains, made once for each level, reading of the walls and screw of grains: other screws
+    /// share theirs.
     fn bed(&self, root: &Path, fingerprint: u64) -> Result<PathBuf, String> {
+        let (kind, of_grains) = match self.kind {
+            Kind::Grains(radius) => (self.kind, format!("-Grains({radius})")),
+            _ => (Kind::Grid, String::new()),
+        };
         let file = root.join(format!(
-            "target/validate/screw/{fingerprint:016x}-n{}-{}-bed.csv",
+            "target/validate/screw/{fingerprint:016x}-n{}-{}{of_grains}-bed.csv",
             self.coarse,
             self.place()
         ));
         if !file.exists() {
             let settling = Case {
                 at_centres: self.at_centres,
+                smooth: self.smooth,
+                kind,
                 ..Case::of(self.coarse, 60.0)
             };
             let source = changed(&root.join(SCENE), &settling.sets())?;
