@@ -222,10 +222,14 @@ fn against_speed(report: &mut Report, measured: &[Measured]) -> Result<(), Strin
     let column =
         |name: &str| -> (Vec<f64>, Vec<f64>) { measured.iter().map(|m| m.get(name)).unzip() };
     let (rate, rate_error) = column("mass_rate");
-    let (ratio, ratio_error) = column("ratio_to_theory");
+    let (tube, tube_error) = column("mass_rate_from_section");
+    let (outlet_ratio, _) = column("ratio_to_theory");
     let (a, a_error) = column("fill_ratio");
-    let theory: Vec<f64> = rate.iter().zip(&ratio).map(|(q, r)| q / r).collect();
+    let theory: Vec<f64> = rate.iter().zip(&outlet_ratio).map(|(q, r)| q / r).collect();
     let with_a: Vec<f64> = theory.iter().zip(&a).map(|(q, a)| q * a).collect();
+    // The rate in the tube is that of the outlet (a check above) with a smaller error.
+    let over = |v: &[f64]| -> Vec<f64> { v.iter().zip(&theory).map(|(q, t)| q / t).collect() };
+    let (ratio, ratio_error) = (over(&tube), over(&tube_error));
     let figure = Figure::new(
         "Paper A's screw feeder at n = 3",
         "speed of the screw (r/min)",
@@ -238,10 +242,16 @@ fn against_speed(report: &mut Report, measured: &[Measured]) -> Result<(), Strin
     )
     .line("theory, measured a", &SPEEDS, &with_a)
     .points(
-        "tsubu, screw as a grid of distances",
+        "tsubu, through the outlet",
         &SPEEDS,
         &rate,
         Some(&rate_error),
+    )
+    .points(
+        "tsubu, mass per length × axial speed in the tube",
+        &SPEEDS,
+        &tube,
+        Some(&tube_error),
     );
     report.figure("screw_rate", figure)?;
     let figure = Figure::new(
@@ -257,8 +267,8 @@ fn against_speed(report: &mut Report, measured: &[Measured]) -> Result<(), Strin
     )
     .points("filling ratio a", &SPEEDS, &a, Some(&a_error));
     report.figure("screw_fill", figure)?;
-    // Linearity over 20–80 r/min: R² of the straight line.
-    let (x, y) = (&SPEEDS[..4], &rate[..4]);
+    // Linearity over 20–80 r/min: R² of the straight line through the rates in the tube, whose errors are smaller.
+    let (x, y) = (&SPEEDS[..4], &tube[..4]);
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let (mx, my) = (mean(x), mean(y));
     let sum = |f: &dyn Fn(usize) -> f64| (0..x.len()).map(f).sum::<f64>();
