@@ -22,15 +22,15 @@ struct Way {
     cost: f64,
 }
 
-/// The feeder at n = 3 and 100 r/min in full flow, on one thread, with the screw said in three ways and without any wall.
+/// The feeder at n = 3 and 60 r/min in full flow, on one thread, with the screw said in three ways and without any wall.
 pub fn run(report: &mut Report, root: &Path, print: u64) -> Result<(), String> {
-    let case = Case::of(3, 100.0);
+    let case = Case::of(3, 60.0);
     let with = |name, shapes: &[(&str, &str)]| -> Result<Way, String> {
         let sets: Vec<String> = shapes
             .iter()
             .map(|(wall, shape)| format!("walls.{wall}.shape={shape}"))
             .collect();
-        let mut run = build_on_one_thread(&case.prepared(root, print, &sets)?)?.simulation;
+        let mut run = build_on_one_thread(&case.in_flow(root, print, &sets)?)?.simulation;
         run.look();
         run.advance(STEPS);
         Ok(Way {
@@ -62,7 +62,7 @@ pub fn run(report: &mut Report, root: &Path, print: u64) -> Result<(), String> {
     let (no_screw, none) = (no_screw.cost, none.cost);
     for way in &ways {
         report.tell(
-            format!("n = 3, 100 r/min, screw as {}: ns per grain-step", way.name),
+            format!("n = 3, 60 r/min, screw as {}: ns per grain-step", way.name),
             way.cost,
             "one thread, the best of seven turns; compare rows",
         );

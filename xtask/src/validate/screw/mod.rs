@@ -54,9 +54,6 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     report.progress(&format!("{compared} comparisons at n = 4"));
     grains::in_the_feeder(report, &all)?;
     grains::in_the_section(report)?;
-    // The long ones start in the flow of the first of these two, whose tube is full.
-    all(&[Case::of(3, 60.0), Case::of(3, 60.0).touching_at_centres()])?;
-    report.progress("60 r/min at n = 3, both readings of the walls");
     let mut cases: Vec<Case> = SPEEDS.iter().map(|&rpm| Case::of(3, rpm)).collect();
     cases.extend([60.0, 100.0].map(|rpm| Case::of(3, rpm).touching_at_centres()));
     let measured = all(&cases)?;

@@ -131,21 +131,11 @@ impl Case {
 
     /// Seconds from the start of the screw: until the tube is full (its length over p n, a tenth slower),
     /// then four turns (three where they are slow), since the rate swings once a turn, and one second for
-    /// grains to fall out. From a full tube: one turn to become even, then as many turns.
+    /// grains to fall out. A start in the flow of another speed would save nothing: the change takes as long to come
+    /// through the tube.
     pub fn until(&self) -> f64 {
         let turns = if self.rpm < 50.0 { 3.0 } else { 4.0 };
-        match self.flow() {
-            Some(_) => 60.0 * (1.0 + turns) / self.rpm + 0.1,
-            None => (103.0 + 60.0 * turns) / self.rpm + 1.0,
-        }
-    }
-
-    /// The run in whose flow this one starts, where runs are long: the same feeder at 60 r/min. Its tube is
-    /// full, its screw where it was at the start; the grains start at rest. Grains that touch walls at their centres
-    /// do so at any depth, which a start from a list refuses: those start from the bed.
-    fn flow(&self) -> Option<Self> {
-        let long = self.coarse < 4 && self.rpm != 60.0 && !self.at_centres;
-        long.then_some(Self { rpm: 60.0, ..*self })
+        (103.0 + 60.0 * turns) / self.rpm + 1.0
     }
 
     fn sets(&self) -> Vec<String> {
@@ -215,24 +205,10 @@ impl Case {
         Ok(file)
     }
 
-    /// The scene of the run with all its changes; the run in whose flow it starts is made if need be.
-    pub fn prepared(
-        &self,
-        root: &Path,
-        fingerprint: u64,
-        more: &[String],
-    ) -> Result<Source, String> {
+    /// The scene of the run with all its changes, its grains starting from a file.
+    fn prepared(&self, root: &Path, start: &Path, more: &[String]) -> Result<Source, String> {
         let mut sets = self.sets();
-        let start = if let Some(flow) = self.flow() {
-            // Nobody waits for grains that are on their way.
-            sets.push("still.for_at_least=1 ms".to_owned());
-            sets.push("still.at_most=2 ms".to_owned());
-            flow.measured(root, fingerprint)?;
-            flow.file(root, fingerprint, FLOW)
-        } else {
-            self.bed(root, fingerprint)?
-        };
-        sets.extend(from_places(self.coarse, 0.1257, &start));
+        sets.extend(from_places(self.coarse, 0.1257, start));
         if self.tangential != 1.0 {
             let gamma = 0.1257 * f64::from(1u32 << self.coarse).powi(2);
             sets.push(format!(
@@ -242,6 +218,24 @@ impl Case {
         }
         sets.extend_from_slice(more);
         changed(&root.join(SCENE), &sets)
+    }
+
+    /// The scene from its own flow on, after the last whole turn of its run: the tube is full, the screw where it was at the
+    /// start, the grains at rest where they were.
+    pub fn in_flow(
+        &self,
+        root: &Path,
+        fingerprint: u64,
+        more: &[String],
+    ) -> Result<Source, String> {
+        self.measured(root, fingerprint)?;
+        // Nobody waits for grains that are on their way.
+        let mut sets = vec![
+            "still.for_at_least=1 ms".to_owned(),
+            "still.at_most=2 ms".to_owned(),
+        ];
+        sets.extend_from_slice(more);
+        self.prepared(root, &self.file(root, fingerprint, FLOW), &sets)
     }
 
     /// What the run measured, from the folder of finished runs or run now.
@@ -254,12 +248,8 @@ impl Case {
             after: (self.until() * self.rpm / 60.0).floor() * 60.0 / self.rpm,
             file: self.file(root, fingerprint, FLOW),
         };
-        Measured::of_run(
-            &self.prepared(root, fingerprint, &[])?,
-            &file,
-            Some(&flow),
-            1,
-        )
+        let bed = self.bed(root, fingerprint)?;
+        Measured::of_run(&self.prepared(root, &bed, &[])?, &file, Some(&flow), 1)
     }
 }
 
