@@ -222,8 +222,10 @@ fn grains_that_start_inside_a_body_are_refused() {
 
 /// A paddle turns among falling grains; those that leave at the side come back above, and an inlet adds some.
 fn paddle(folder: &Path) -> std::path::PathBuf {
-    std::fs::write(folder.join("paddle.stl"), write_stl(&block(), "paddle")).expect("written");
-    let ball = mesh_of(&Ball::new(DVec3::new(0.0, 0.0, -10.0), 12.0).expect("a ball"));
+    let blade = Cuboid::new(DVec3::new(-20.0, 20.0, -15.0), DVec3::new(20.0, 40.0, 15.0));
+    let blade = mesh_of(&blade.expect("a block"));
+    std::fs::write(folder.join("paddle.stl"), write_stl(&blade, "paddle")).expect("written");
+    let ball = mesh_of(&Ball::new(DVec3::new(0.0, 30.0, -10.0), 12.0).expect("a ball"));
     std::fs::write(folder.join("ball.stl"), write_stl(&ball, "ball")).expect("written");
     let text = r#"(
     title: "A paddle among grains that come and go",
