@@ -87,7 +87,8 @@ fn in_dimension<D: Shaped + Slices>(
         surfaces.push(made.surface);
         wall_grains.push(made.wall_grains);
     }
-    bodies_stay::<D>(checked, &surfaces, &domain, constants.dt)?;
+    let of_grains: Vec<bool> = wall_grains.iter().map(Option::is_some).collect();
+    bodies_stay::<D>(checked, &surfaces, &of_grains, &domain, constants.dt)?;
     let grains = start::grains::<D>(checked, &constants, &domain, &surfaces)?;
     let threads = choices
         .threads

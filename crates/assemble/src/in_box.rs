@@ -6,10 +6,11 @@ use tsubu_model::{Dim, Domain, Surface};
 use tsubu_scene::{Checked, Course, End, Motion, SceneError, Wall};
 
 /// Refuses a body that sticks out of a periodic box at some time. One that is longer than the box at both ends
-/// fills it all the time, as a tube along the axis does, and stays right.
+/// fills it all the time, as a tube along the axis does, and stays right, unless it is built of grains.
 pub(crate) fn bodies_stay<D: Dim>(
     checked: &Checked,
     surfaces: &[Arc<dyn Surface<D>>],
+    of_grains: &[bool],
     domain: &Domain<D>,
     dt: f64,
 ) -> Result<(), SceneError> {
@@ -32,6 +33,18 @@ pub(crate) fn bodies_stay<D: Dim>(
             let [back, forth] = shifted(wall, end, a);
             let stays = low + back >= -slack && high + forth <= length + slack;
             let fills = low + forth <= slack && high + back >= length - slack;
+            // Wall grains lie on a lattice of their own, which is another one after a period.
+            if fills && !stays && of_grains[number] {
+                let axis = ["x", "y", "z"][a];
+                let what = format!(
+                    "the wall `{}` is built of grains, which do not repeat with the periodic box along {axis}",
+                    wall.name
+                );
+                let remedy = format!(
+                    "keep it within the box, write surface: Grid(…) or Exact, or {axis}: Open in the domain"
+                );
+                return Err(checked.problem(&format!("walls[{number}].shape"), what, remedy));
+            }
             if !(stays || fills) {
                 let axis = ["x", "y", "z"][a];
                 let what = format!(

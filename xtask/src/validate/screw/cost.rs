@@ -39,8 +39,7 @@ pub fn run(report: &mut Report, root: &Path, print: u64) -> Result<(), String> {
             cost: f64::INFINITY,
         })
     };
-    let [triangles, formula] =
-        [Kind::Triangles, Kind::Analytic].map(|kind| kind.shape("screw.stl", [0.0, 675.0]));
+    let [triangles, formula] = [Kind::Triangles, Kind::Analytic].map(Kind::shape);
     let no_walls = ["screw", "casing", "hopper"].map(|wall| (wall, AWAY));
     let mut ways = [
         with("a grid of distances (2 mm)", &[])?,

@@ -6,7 +6,6 @@
 
 use super::kept::{self, Measured};
 use super::levels::levels;
-use super::runs::Kind;
 use super::section::{CASING, DENSITY, Found, PITCH, Rung, SCENE, SHAFT, most, per_turn};
 use crate::validate::check::Tolerance;
 use crate::validate::report::Report;
@@ -49,8 +48,6 @@ pub fn run(report: &mut Report, feeder: &Measured) -> Result<(), String> {
                 rpm,
                 turns,
                 at_centres,
-                kind: Kind::Grid,
-                smooth: false,
             })
         })
         .collect();

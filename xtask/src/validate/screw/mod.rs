@@ -52,8 +52,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     }
     let compared = comparisons(report, &base, &one[0], &all)?;
     report.progress(&format!("{compared} comparisons at n = 4"));
-    grains::in_the_feeder(report, &all)?;
-    grains::in_the_section(report)?;
+    grains::run(report, &all)?;
     let mut cases: Vec<Case> = SPEEDS.iter().map(|&rpm| Case::of(3, rpm)).collect();
     cases.extend([60.0, 100.0].map(|rpm| Case::of(3, rpm).touching_at_centres()));
     let measured = all(&cases)?;
@@ -162,6 +161,21 @@ fn comparisons(
             "E/1",
             Case {
                 soften: 1.0,
+                ..*base
+            },
+        ),
+        (
+            "E/10, γn/√10",
+            Case {
+                soften: 10.0,
+                keeps_restitution: true,
+                ..*base
+            },
+        ),
+        (
+            "E/100, γn/10",
+            Case {
+                keeps_restitution: true,
                 ..*base
             },
         ),

@@ -23,8 +23,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The shape of the screw as a scene says it, from a file or along x between two places in mm.
-    pub fn shape(self, file: &str, [from, to]: [f64; 2]) -> String {
+    /// The shape of the screw as a scene says it.
+    pub fn shape(self) -> String {
         let surface = match self {
             Kind::Grid => "Grid(cell: \"2 mm\")".to_owned(),
             Kind::Triangles => "Exact".to_owned(),
@@ -32,17 +32,15 @@ impl Kind {
                 format!("Grains(radius: \"{} mm\")", f64::from(radius) * 1e-3)
             }
             Kind::Analytic => {
-                return format!(
-                    "Screw(from: (\"{from} mm\", \"0 mm\", \"0 mm\"), to: (\"{to} mm\", \"0 mm\", \"0 mm\"), shaft: \"55 mm\", outer: \"205 mm\", pitch: \"150 mm\", thickness: \"6 mm\")"
-                );
+                return "Screw(from: (\"0 mm\", \"0 mm\", \"0 mm\"), to: (\"675 mm\", \"0 mm\", \"0 mm\"), shaft: \"55 mm\", outer: \"205 mm\", pitch: \"150 mm\", thickness: \"6 mm\")".to_owned();
             }
         };
-        format!("Mesh(file: \"meshes/{file}\", unit: \"mm\", surface: {surface})")
+        format!("Mesh(file: \"meshes/screw.stl\", unit: \"mm\", surface: {surface})")
     }
 
     /// Changes of a scene after which its screw is of this kind. What holds of surfaces is left out of wall grains.
-    pub fn sets(self, file: &str, ends: [f64; 2]) -> Vec<String> {
-        let mut sets = vec![format!("walls.screw.shape={}", self.shape(file, ends))];
+    fn sets(self) -> Vec<String> {
+        let mut sets = vec![format!("walls.screw.shape={}", self.shape())];
         if matches!(self, Kind::Grains(_)) {
             sets.push("walls.screw.restitution=None".to_owned());
             sets.push("walls.screw.friction=None".to_owned());
@@ -62,7 +60,7 @@ impl Kind {
 }
 
 /// Changes after which a wall only repels: no friction, no damping.
-pub fn repelling(wall: &str) -> [String; 2] {
+fn repelling(wall: &str) -> [String; 2] {
     [
         format!("walls.{wall}.restitution=None"),
         format!("walls.{wall}.friction=None"),
@@ -78,6 +76,8 @@ pub struct Case {
     pub rpm: f64,
     /// Stiffness divided by this.
     pub soften: f64,
+    /// Softening divides the normal damping by its root, so that restitution stays (`NormalScaled`).
+    pub keeps_restitution: bool,
     /// Tangential damping between grains over paper A's.
     pub tangential: f64,
     /// Friction of screw, casing and hopper.
@@ -97,6 +97,7 @@ impl Case {
             coarse,
             rpm,
             soften: 100.0,
+            keeps_restitution: false,
             tangential: 1.0,
             friction: 0.413,
             at_centres: false,
@@ -154,7 +155,10 @@ impl Case {
                 sets.push(format!("walls.{wall}.touches_at={centre}"));
             }
         }
-        sets.extend(self.kind.sets("screw.stl", [0.0, 675.0]));
+        if self.keeps_restitution {
+            sets.push("grains.softened_damping=NormalScaled".to_owned());
+        }
+        sets.extend(self.kind.sets());
         if self.smooth {
             sets.extend(repelling("casing"));
         }
@@ -172,8 +176,9 @@ impl Case {
             ..
         } = self;
         let place = self.place();
+        let damping = if self.keeps_restitution { "n" } else { "" };
         root.join(format!(
-            "target/validate/screw/{fingerprint:016x}-n{coarse}-{rpm}rpm-s{soften}-t{tangential}-mu{friction}-{place}-{kind:?}-{:.2}s{what}.csv",
+            "target/validate/screw/{fingerprint:016x}-n{coarse}-{rpm}rpm-s{soften}{damping}-t{tangential}-mu{friction}-{place}-{kind:?}-{:.2}s{what}.csv",
             self.until()
         ))
     }

@@ -7,7 +7,6 @@
 //! same mass does not fit: at n = 4 it would take a solid fraction of 0.56 of the room, where the hopper's bed has 0.52.
 
 use super::kept::Measured;
-use super::runs::{Kind, repelling};
 use crate::validate::scenes::changed;
 use std::path::Path;
 
@@ -49,10 +48,6 @@ pub struct Rung {
     pub turns: f64,
     /// Walls are touched at the centres.
     pub at_centres: bool,
-    /// What the screw is made of.
-    pub kind: Kind,
-    /// The casing only repels.
-    pub smooth: bool,
 }
 
 impl Rung {
@@ -66,16 +61,7 @@ impl Rung {
         let Rung {
             coarse, rpm, turns, ..
         } = self;
-        let screw = match self.kind {
-            Kind::Grid => String::new(),
-            kind => format!(", screw of {}", kind.name()),
-        };
-        let casing = if self.smooth {
-            ", repelling casing"
-        } else {
-            ""
-        };
-        format!("section, n = {coarse}, {rpm} r/min, {place}, {turns} turns{screw}{casing}")
+        format!("section, n = {coarse}, {rpm} r/min, {place}, {turns} turns")
     }
 
     /// λ = 2ⁿ.
@@ -105,37 +91,25 @@ impl Rung {
 
     fn sets(&self) -> Vec<String> {
         let place = if self.at_centres { "Centre" } else { "Surface" };
-        let mut sets = vec![
+        vec![
             format!("grains.coarse={}", self.coarse),
             format!("walls.screw.motion.turn.rate=-{} rpm", self.rpm),
+            format!("walls.screw.touches_at={place}"),
             format!("walls.casing.touches_at={place}"),
             format!(
                 "initial.fill.solid_fraction={}",
                 self.mass() / DENSITY / BOX
             ),
             format!("time.until={} s", 60.0 * self.turns / self.rpm),
-        ];
-        if !matches!(self.kind, Kind::Grains(_)) {
-            sets.push(format!("walls.screw.touches_at={place}"));
-        }
-        sets.extend(self.kind.sets("screw_section.stl", [-150.0, 300.0]));
-        if self.smooth {
-            sets.extend(repelling("casing"));
-        }
-        sets
+        ]
     }
 
     /// What the run measured, from the folder of finished runs or run now.
     pub fn measured(&self, root: &Path, fingerprint: u64) -> Result<Measured, String> {
         let Rung { coarse, rpm, .. } = self;
         let place = if self.at_centres { "centre" } else { "surface" };
-        let screw = match self.kind {
-            Kind::Grid => String::new(),
-            kind => format!("-{kind:?}"),
-        };
-        let casing = if self.smooth { "-smooth" } else { "" };
         let file = root.join(format!(
-            "target/validate/screw/{fingerprint:016x}-section-n{coarse}-{rpm}rpm-{place}-{}turns{screw}{casing}.csv",
+            "target/validate/screw/{fingerprint:016x}-section-n{coarse}-{rpm}rpm-{place}-{}turns.csv",
             self.turns
         ));
         match Measured::kept(&file) {
