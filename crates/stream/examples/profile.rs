@@ -62,8 +62,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         println!("  a grain {place} {verb}: the mean flow moves it from tau* = {threshold:.3} on");
     }
+    let gusts =
+        turbulence.along * turbulence.decay(0.0, true) / profile.over_friction_velocity(0.0);
     println!(
-        "  gusts are as strong as the flow around the bed: they move grains below those thresholds"
+        "  gusts (rms) are {:.0} % of the flow level with the bed: they move grains below those thresholds",
+        100.0 * gusts
     );
     for curve in [
         TransportCurve::MEYER_PETER_MULLER,
