@@ -58,6 +58,7 @@
 //! in standing water do not make.
 
 mod bed;
+mod current;
 mod profile;
 mod shelter;
 mod stream;
@@ -68,9 +69,10 @@ mod unphysical;
 mod water;
 
 pub use bed::{BED_CONTACTS, Bed, Datum, NoBed, bed_level};
+pub use current::{Current, Grains};
 pub use profile::{LogLaw, Profile};
 pub use shelter::{Shelter, ShelterBelow};
-pub use stream::{Current, Grains, Setting, Stream};
+pub use stream::{Setting, Stream};
 pub use table::Table;
 pub use transport::{TransportCurve, bed_load_rate};
 pub use turbulence::{Draw, FluctuationsBelow, Turbulence};

@@ -149,7 +149,8 @@ fn push_adds_and_refuses_unequal_slices() {
 /// Every number that water cannot have, with the words that name it.
 #[test]
 fn unphysical_numbers_are_refused_by_name() {
-    let broken: [(&str, fn(&mut Setting)); 17] = [
+    type Damage = fn(&mut Setting);
+    let broken: [(&str, Damage); 17] = [
         ("density of the water is 0", |s| s.water.density = 0.0),
         ("density of the water is NaN", |s| {
             s.water.density = f64::NAN
