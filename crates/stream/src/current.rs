@@ -1,6 +1,5 @@
 //! The stream at one moment, and the grains that it pushes.
 
-use crate::unphysical::demand;
 use crate::{Setting, Unphysical};
 use tsubu_model::{Dim, Vector};
 
@@ -26,10 +25,14 @@ impl<D: Dim> Grains<'_, D> {
             ("number of identities", self.identity.len()),
             ("number of diameters", self.diameter.len()),
         ];
-        let remedy = format!("{forces}, one for each force");
-        lengths
-            .into_iter()
-            .try_for_each(|(what, length)| demand(length == forces, what, length as f64, &remedy))
+        match lengths.into_iter().find(|slice| slice.1 != forces) {
+            None => Ok(()),
+            Some((what, length)) => Err(Unphysical {
+                what: what.into(),
+                value: length as f64,
+                remedy: format!("{forces}, one for each force"),
+            }),
+        }
     }
 }
 
