@@ -8,18 +8,22 @@ pub const BED_CONTACTS: u32 = 2;
 /// The datum: the mean height of the centres of the bed grains that lie within `diameter` of the highest one.
 ///
 /// `grains` gives height in m and number of contacts of each; `diameter` is the largest grain's in m.
-/// `None` if no grain has [`BED_CONTACTS`]. The sum runs in the order of the grains.
+/// `contacts` is how many make a grain part of the bed, usually [`BED_CONTACTS`]; `None` if no grain has them. The sum runs in the order of the grains.
 /// Source: `Gotoh2001`, section 2 (4), which does not say what makes a grain part of the bed.
 ///
 /// ```
 /// use tsubu_stream::bed_level;
 /// // In units of d: a leaping grain at 9, the highest bed grain at 5, one beside it, one too deep to count.
 /// let grains = [(9.0, 0), (5.0, 3), (4.5, 4), (3.5, 6)];
-/// assert_eq!(bed_level(grains.into_iter(), 1.0), Some(4.75));
+/// assert_eq!(bed_level(grains.into_iter(), 1.0, 2), Some(4.75));
 /// ```
-pub fn bed_level(grains: impl Iterator<Item = (f64, u32)> + Clone, diameter: f64) -> Option<f64> {
+pub fn bed_level(
+    grains: impl Iterator<Item = (f64, u32)> + Clone,
+    diameter: f64,
+    contacts: u32,
+) -> Option<f64> {
     let bed = grains
-        .filter(|grain| grain.1 >= BED_CONTACTS)
+        .filter(|grain| grain.1 >= contacts)
         .map(|grain| grain.0);
     let top = bed.clone().fold(f64::NEG_INFINITY, f64::max);
     let (sum, count) = bed
@@ -53,14 +57,18 @@ pub struct Bed {
 
 /// The water was asked to flow where there is no bed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoBed;
+pub struct NoBed {
+    /// Contacts from which on a grain belongs to the bed.
+    pub contacts: u32,
+}
 
 impl fmt::Display for NoBed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "no grain has {BED_CONTACTS} contacts, so the water has no bed: let the grains settle before \
-             it flows, or give the height of the bed"
+            "no grain has {} contacts, so the water has no bed: let the grains settle before \
+             it flows, or give the height of the bed",
+            self.contacts
         )
     }
 }

@@ -38,7 +38,7 @@
 //! | who shares a draw | [`Draw`] | each grain its own |
 //! | how often it is drawn | [`Turbulence::frequency`] | 50 Hz |
 //! | shelter deep in the bed | [`ShelterBelow`] | ε0 |
-//! | what belongs to the bed | [`BED_CONTACTS`] | two contacts |
+//! | what belongs to the bed | [`Setting::bed_contacts`] | two contacts |
 //! | when the datum is found | [`Datum`] | at every switch |
 //! | mixtures | [`Setting::largest_diameter`], [`LogLaw`], [`Shelter`] | ksr and the datum's layer from the largest |
 //!

@@ -2,8 +2,8 @@
 
 use crate::unphysical::{demand, demand_positive};
 use crate::{
-    Bed, Current, Datum, Grains, LogLaw, NoBed, Profile, Shelter, Table, Turbulence, Unphysical,
-    Water, bed_level,
+    BED_CONTACTS, Bed, Current, Datum, Grains, LogLaw, NoBed, Profile, Shelter, Table, Turbulence,
+    Unphysical, Water, bed_level,
 };
 use tsubu_model::Dim;
 
@@ -27,6 +27,8 @@ pub struct Setting {
     pub turbulence: Turbulence,
     /// Sheltering.
     pub shelter: Shelter,
+    /// Contacts from which on a grain belongs to the bed; 0 counts every grain, also one that leaps.
+    pub bed_contacts: u32,
     /// When y = 0 is found.
     pub datum: Datum,
     /// Diameter of the largest grain in m: the thickness of the layer whose mean height is y = 0.
@@ -43,6 +45,7 @@ impl Setting {
             friction_velocity: Table::constant(friction_velocity),
             turbulence: Turbulence::open_channel(seed),
             shelter: Shelter::among_grains(largest_diameter),
+            bed_contacts: BED_CONTACTS,
             datum: Datum::Renewed,
             largest_diameter,
         }
@@ -121,8 +124,9 @@ impl Stream {
         if !self.is_due(time) {
             return Ok(false);
         }
-        let found = bed_level(grains, self.setting.largest_diameter);
-        let level = found.or(self.bed.level).ok_or(NoBed)?;
+        let contacts = self.setting.bed_contacts;
+        let found = bed_level(grains, self.setting.largest_diameter, contacts);
+        let level = found.or(self.bed.level).ok_or(NoBed { contacts })?;
         self.bed = Bed {
             level: Some(level),
             switch: Some(self.setting.turbulence.switch(time)),

@@ -120,8 +120,8 @@ proptest! {
     /// A bed that is lifted lifts its datum, and the datum lies within one d below the highest bed grain.
     #[test]
     fn the_datum_moves_with_the_bed(bed in prop::collection::vec((0.0..10.0f64, 0u32..6), 1..40), lift in -5.0..5.0f64) {
-        let level = bed_level(bed.iter().copied(), 1.0);
-        let lifted = bed_level(bed.iter().map(|(y, contacts)| (y + lift, *contacts)), 1.0);
+        let level = bed_level(bed.iter().copied(), 1.0, 2);
+        let lifted = bed_level(bed.iter().map(|(y, contacts)| (y + lift, *contacts)), 1.0, 2);
         let top = bed.iter().filter(|grain| grain.1 >= 2).map(|grain| grain.0).reduce(f64::max);
         prop_assert_eq!(level.is_some(), top.is_some());
         if let (Some(level), Some(lifted), Some(top)) = (level, lifted, top) {

@@ -43,6 +43,22 @@ fn a_renewed_datum_follows_the_bed_at_switches() {
     assert!(!stream.is_due(0.059) && stream.is_due(0.061));
 }
 
+/// With 0 contacts every grain counts, and the one that leaps ten diameters up, alone with the other, is the bed.
+#[test]
+fn contacts_keep_leaping_grains_out_of_the_bed() {
+    let level = |bed_contacts: u32| {
+        let mut stream = Stream::new(Setting {
+            bed_contacts,
+            ..setting(Datum::Frozen)
+        })
+        .unwrap();
+        stream.renew(0.0, bed(0.0)).unwrap();
+        stream.bed().level.unwrap()
+    };
+    assert_eq!(level(2), 0.0);
+    assert!((level(0) - 9.5 * D).abs() < 1e-15);
+}
+
 #[test]
 fn a_frozen_datum_stays_and_a_given_one_needs_no_grains() {
     let mut frozen = Stream::new(setting(Datum::Frozen)).unwrap();
@@ -61,7 +77,7 @@ fn a_frozen_datum_stays_and_a_given_one_needs_no_grains() {
 fn water_without_a_bed_is_refused_and_pushes_nothing() {
     let mut stream = Stream::new(setting(Datum::Renewed)).unwrap();
     let refused = stream.renew(0.0, [(0.0, 1)].into_iter()).unwrap_err();
-    assert_eq!(refused, NoBed);
+    assert_eq!(refused, NoBed { contacts: 2 });
     assert!(
         refused.to_string().contains("let the grains settle"),
         "{refused}"
