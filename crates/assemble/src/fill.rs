@@ -1,8 +1,7 @@
 //! Random places without overlap in a box: random sequential addition, and where that jams, grains sink to make room.
 
-use crate::random::uniform;
 use glam::DVec3;
-use tsubu_model::{Dim, Domain, Vector};
+use tsubu_model::{Dim, Domain, Vector, uniform};
 
 /// Places tried for one grain before the box counts as full.
 const TRIES: u64 = 20_000;

@@ -1,10 +1,9 @@
 //! Gates through which grains come and go: outlets that delete or recycle, inlets that keep a region filled.
 
-use crate::random::uniform;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::f64::consts::PI;
-use tsubu_model::{Change, Dim, Gate, SpinState, Vector, View};
+use tsubu_model::{Change, Dim, Gate, SpinState, Vector, View, uniform};
 use tsubu_scene::{Fate, Inlet, Outlet, Region};
 
 /// Places tried for one grain before it has to wait for the next time.

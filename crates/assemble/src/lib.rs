@@ -37,7 +37,6 @@ mod gate;
 mod in_box;
 mod observers;
 mod plan;
-mod random;
 mod simulation;
 mod start;
 mod surfaces;

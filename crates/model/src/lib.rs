@@ -19,6 +19,7 @@ mod dim;
 mod kind;
 mod motion;
 mod numbers;
+mod random;
 mod spin;
 mod surface;
 mod view;
@@ -29,6 +30,7 @@ pub use dim::{Dim, Domain, Plane, Space, Vector};
 pub use kind::Kind;
 pub use motion::{Course, Motion, Pose, Shift, Span, Turn};
 pub use numbers::Numbers;
+pub use random::uniform;
 pub use spin::{Nothing, SpinState, Still};
 pub use surface::{Hit, HitBuffer, Shell, Surface};
 pub use view::{

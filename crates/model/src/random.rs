@@ -1,7 +1,14 @@
 //! Random numbers from (seed, identity, event): nothing to save, the same for any order of work.
 
-/// A number in [0, 1) that depends on nothing but its three arguments (SplitMix64 finaliser, three rounds).
-pub(crate) fn uniform(seed: u64, identity: u64, event: u64) -> f64 {
+/// A number in [0, 1) that depends on nothing but its three arguments: the SplitMix64 finaliser, one round
+/// for each of identity, event and a constant. `identity` is whose number it is, `event` which of its numbers.
+///
+/// Its values are part of what a seed means and never change.
+///
+/// ```
+/// assert_eq!(tsubu_model::uniform(42, 7, 3), 12853779526540.0 / 2f64.powi(53));
+/// ```
+pub fn uniform(seed: u64, identity: u64, event: u64) -> f64 {
     let mut z = seed;
     for word in [identity, event, 0x5851_f42d_4c95_7f2d] {
         z = z
@@ -17,6 +24,26 @@ pub(crate) fn uniform(seed: u64, identity: u64, event: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Whole numbers of 2⁻⁵³ from the same recipe written apart from this code, in another language.
+    #[test]
+    fn bits_are_those_of_the_recipe() {
+        let cases = [
+            ([1, 0, 0], 3692752486287056u64),
+            ([1, 7, 0], 5275988924800914),
+            ([42, 7, 3], 12853779526540),
+            (
+                [(1 << 63) + 5, 4_000_000_000, 123_456_789],
+                3046767443920011,
+            ),
+        ];
+        for ([seed, identity, event], bits) in cases {
+            assert_eq!(
+                uniform(seed, identity, event) * (1u64 << 53) as f64,
+                bits as f64
+            );
+        }
+    }
 
     #[test]
     fn is_flat_and_uncorrelated_between_neighbours() {
