@@ -19,8 +19,9 @@ where
     W: ContactLaw<D, S>,
     T: Tally,
 {
-    /// After a drift: notes the grains near the bodies anew if one may have moved by its allowance.
-    pub(crate) fn keep_near_valid(&mut self) {
+    /// After a drift: sums how far grains and bodies may have moved since the grains near bodies were noted.
+    /// True if a body has used up its allowance, so that they have to be noted anew.
+    pub(crate) fn near_is_due(&mut self) -> bool {
         for chunk in &mut self.chunks {
             chunk.moved += chunk.fastest2.sqrt() * self.dt;
         }
@@ -31,9 +32,7 @@ where
                 due |= *moved > ALLOWANCE * self.range;
             }
         }
-        if due {
-            self.note_near_bodies();
-        }
+        due
     }
 
     /// Notes for every chunk which of its grains may touch which body before the next time.

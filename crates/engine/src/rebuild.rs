@@ -31,10 +31,20 @@ where
             .fold(0.0, f64::max)
             .sqrt();
         self.moved += fastest * self.dt();
-        self.keep_near_valid();
+        let near_is_due = self.near_is_due();
+        if self.lists_are_due() {
+            self.adapt_skin();
+            self.build_lists();
+        } else if near_is_due {
+            self.note_near_bodies();
+        }
+    }
+
+    /// True if some grain has moved by nearly half the skin since the lists were built.
+    fn lists_are_due(&mut self) -> bool {
         let half = 0.5 * self.skin;
         if self.moved <= half {
-            return;
+            return false;
         }
         let furthest2 = self
             .lines
@@ -44,10 +54,7 @@ where
             .fold(0.0, f64::max);
         self.moved = furthest2.sqrt();
         // Close to the end there would be a look at every step: build now.
-        if self.moved > 0.85 * half || self.moved.is_nan() {
-            self.adapt_skin();
-            self.build_lists();
-        }
+        self.moved > 0.85 * half || self.moved.is_nan()
     }
 
     fn adapt_skin(&mut self) {

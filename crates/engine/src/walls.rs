@@ -176,7 +176,8 @@ fn contacts<D, S, K, W>(
             chunk.points.clear();
             chunk.reaches.clear();
             chunk.hits.hits.clear();
-            for (entry, near) in chunk.near.iter().enumerate().take(to).skip(from) {
+            for entry in from..to {
+                let near = chunk.near[entry];
                 if gone < near.asleep_until {
                     continue;
                 }
