@@ -1,27 +1,19 @@
 //! Bodies that move and grains that come and go.
 
+mod common;
+
+use common::{D, FINE, USUAL, at, law, pool, steady, turning};
 use glam::DVec3;
 use std::sync::Arc;
 use tsubu_contact::{Repulsion, RepulsiveWall};
 use tsubu_engine::{Body, Lanes, OneKind, Placed, Setup, TouchesAt, WithTally, World};
 use tsubu_integrate::Scheme;
 use tsubu_model::{
-    Change, Course, Domain, HitBuffer, Kind, Motion, Shift, Space, Span, Still, Surface, Turn, View,
+    Change, Course, Domain, HitBuffer, Kind, Motion, Shift, Space, Span, Still, Surface, View,
 };
 use tsubu_sdf::{Cuboid, HalfSpace};
 
-const D: f64 = 1.35e-3;
-
 type Tallied = World<Space, Still, OneKind, Repulsion, RepulsiveWall, WithTally>;
-
-/// A step of which some 600 fit into a contact.
-const FINE: f64 = 2.5e-8;
-/// A step of which some ten fit into a contact.
-const USUAL: f64 = 1.5e-6;
-
-fn law() -> Repulsion {
-    Repulsion::from_young_modulus(3.1e7, Repulsion::sigma_for_diameter(D), 0.0126, 0.0126, D)
-}
 
 fn plane(outward: DVec3, friction: f64, motion: Motion) -> Body<Space, RepulsiveWall> {
     Body {
@@ -39,14 +31,6 @@ fn plane(outward: DVec3, friction: f64, motion: Motion) -> Body<Space, Repulsive
     }
 }
 
-fn at(position: DVec3, velocity: DVec3) -> Placed<Space> {
-    Placed {
-        position,
-        velocity,
-        kind: 0,
-    }
-}
-
 fn world(
     body: Body<Space, RepulsiveWall>,
     grains: Vec<Placed<Space>>,
@@ -55,10 +39,6 @@ fn world(
     scheme: Scheme,
     threads: usize,
 ) -> Tallied {
-    let pool = (threads > 1).then(|| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        Arc::new(pool.unwrap())
-    });
     World::new(Setup {
         kinds: OneKind([Kind::sphere(D, 1370.0)]),
         law: law(),
@@ -69,33 +49,10 @@ fn world(
         dt,
         skin: None,
         lanes: Lanes::best(),
-        pool,
+        pool: pool(threads),
         grains,
         gates: vec!["in".into(), "out".into()],
     })
-}
-
-fn steady(velocity: DVec3) -> Motion {
-    Motion {
-        turn: None,
-        shifts: vec![Shift {
-            direction: velocity.normalize(),
-            course: Course::Steady(velocity.length()),
-            span: Span::ALWAYS,
-        }],
-    }
-}
-
-fn turning(point: DVec3, rate: f64) -> Motion {
-    Motion {
-        turn: Some(Turn {
-            point,
-            axis: DVec3::Y,
-            rate,
-            span: Span::ALWAYS,
-        }),
-        shifts: Vec::new(),
-    }
 }
 
 #[test]

@@ -1,5 +1,8 @@
 //! Bodies built of grains: the same contact as between two grains, books that close, the same bits.
 
+mod common;
+
+use common::{D, FINE, USUAL, at, law, pool, steady, turning};
 use glam::DVec3;
 use std::sync::Arc;
 use tsubu_contact::{BodyLaw, Repulsion, RepulsiveWall, WallGrains};
@@ -7,23 +10,13 @@ use tsubu_engine::{
     Body, Lanes, ManyKinds, NoTally, OneKind, Placed, Setup, TouchesAt, WithTally, World,
 };
 use tsubu_integrate::Scheme;
-use tsubu_model::{Course, Domain, Kind, Motion, Shift, Space, Span, Still, Surface, Turn, View};
+use tsubu_model::{Domain, Kind, Motion, Space, Still, Surface, View};
 use tsubu_sdf::{Cuboid, GrainBody, GrainBodyOptions, Mesh};
 
-const D: f64 = 1.35e-3;
 /// Radius of a wall grain: q = rs/rp = 0.8.
 const RS: f64 = 0.4 * D;
 
 type Tallied = World<Space, Still, OneKind, Repulsion, BodyLaw, WithTally>;
-
-/// A step of which some 600 fit into a contact.
-const FINE: f64 = 2.5e-8;
-/// A step of which some ten fit into a contact.
-const USUAL: f64 = 1.5e-6;
-
-fn law() -> Repulsion {
-    Repulsion::from_young_modulus(3.1e7, Repulsion::sigma_for_diameter(D), 0.0126, 0.0126, D)
-}
 
 /// A block of grains between two corners, moving.
 fn block(low: DVec3, high: DVec3, motion: Motion) -> Body<Space, BodyLaw> {
@@ -54,37 +47,6 @@ fn one(motion: Motion) -> Body<Space, BodyLaw> {
     block(-half, half, motion)
 }
 
-fn steady(velocity: DVec3) -> Motion {
-    Motion {
-        turn: None,
-        shifts: vec![Shift {
-            direction: velocity.normalize(),
-            course: Course::Steady(velocity.length()),
-            span: Span::ALWAYS,
-        }],
-    }
-}
-
-fn turning(rate: f64) -> Motion {
-    Motion {
-        turn: Some(Turn {
-            point: DVec3::ZERO,
-            axis: DVec3::Y,
-            rate,
-            span: Span::ALWAYS,
-        }),
-        shifts: Vec::new(),
-    }
-}
-
-fn at(position: DVec3, velocity: DVec3) -> Placed<Space> {
-    Placed {
-        position,
-        velocity,
-        kind: 0,
-    }
-}
-
 fn setup<K>(
     kinds: K,
     bodies: Vec<Body<Space, BodyLaw>>,
@@ -92,10 +54,6 @@ fn setup<K>(
     dt: f64,
     threads: usize,
 ) -> Setup<Space, K, Repulsion, BodyLaw> {
-    let pool = (threads > 1).then(|| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        Arc::new(pool.unwrap())
-    });
     Setup {
         kinds,
         law: law(),
@@ -106,7 +64,7 @@ fn setup<K>(
         dt,
         skin: None,
         lanes: Lanes::best(),
-        pool,
+        pool: pool(threads),
         grains,
         gates: Vec::new(),
     }
@@ -170,7 +128,7 @@ fn what_a_grain_feels_the_body_feels_in_return() {
     let body = block(
         DVec3::splat(-8.0 * RS),
         DVec3::splat(8.0 * RS),
-        turning(50.0),
+        turning(DVec3::ZERO, 50.0),
     );
     let top = {
         let centres = body.surface.bounds().unwrap()[1].z;
@@ -200,7 +158,7 @@ fn the_energy_books_of_a_turning_body_of_grains_close() {
     let bar = block(
         DVec3::new(2.0 * D, -2.0 * D, -2.0 * RS),
         DVec3::new(14.0 * D, 2.0 * D, 2.0 * RS),
-        turning(-40.0),
+        turning(DVec3::ZERO, -40.0),
     );
     let top = bar.surface.bounds().unwrap()[1].z;
     let grains = (0..8)
@@ -256,7 +214,7 @@ fn raining(threads: usize) -> Tallied {
         restitution: Some(0.5),
         friction: 0.4,
     });
-    let bodies = vec![block(-size, size, turning(20.0)), floor];
+    let bodies = vec![block(-size, size, turning(DVec3::ZERO, 20.0)), floor];
     let kinds = OneKind([Kind::sphere(D, 1370.0)]);
     let mut world: Tallied = World::new(setup(kinds, bodies, grains, USUAL, threads));
     world.advance(1500);
