@@ -1,6 +1,6 @@
 //! The mean flow over the bed as a multiple of the friction velocity.
 
-use crate::unphysical::{demand, demand_positive};
+use crate::unphysical::{demand_place, demand_positive};
 use crate::{Table, Unphysical};
 
 /// The rough-wall law, with zero flow below the height where the logarithm is zero:
@@ -106,12 +106,7 @@ impl Profile {
             Self::Log(law) => {
                 demand_positive("roughness", law.roughness, "m")?;
                 demand_positive("Kármán constant", law.karman, "")?;
-                demand(
-                    law.offset.is_finite(),
-                    "offset of the logarithm",
-                    law.offset,
-                    "a length in m",
-                )
+                demand_place("offset of the logarithm", law.offset)
             }
             Self::Measured(table) => table.demand_not_negative("speed of a measured profile", ""),
         }

@@ -1,7 +1,7 @@
 //! Sheltering: grains among others feel less of the flow.
 
 use crate::Unphysical;
-use crate::unphysical::{demand, demand_positive};
+use crate::unphysical::{demand, demand_place, demand_positive};
 
 /// What the shelter does below the height −y₀, where the printed square would make it rise again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,11 +79,6 @@ impl Shelter {
             "a number from 0 to 1",
         )?;
         demand_positive("shelter's roughness", self.roughness, "m")?;
-        demand(
-            self.offset.is_finite(),
-            "shelter's offset",
-            self.offset,
-            "a length in m",
-        )
+        demand_place("shelter's offset", self.offset)
     }
 }

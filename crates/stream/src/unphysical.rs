@@ -57,6 +57,11 @@ pub(crate) fn demand_not_negative(what: &str, value: f64, unit: &str) -> Result<
     demand(holds, what, value, &remedy)
 }
 
+/// A place: a finite length.
+pub(crate) fn demand_place(what: &str, value: f64) -> Result<(), Unphysical> {
+    demand(value.is_finite(), what, value, "a length in m")
+}
+
 /// ` in m/s`, or nothing for a pure number.
 fn in_unit(unit: &str) -> String {
     if unit.is_empty() {
