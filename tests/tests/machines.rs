@@ -12,11 +12,7 @@ use tsubu_tests::{Scratch, bits, run_in, run_out};
 
 fn mesh_of(surface: &dyn Surface<tsubu::model::Space>) -> Mesh {
     let shell = surface.shell().expect("this shape is drawn with triangles");
-    Mesh {
-        vertices: shell.vertices,
-        triangles: shell.triangles,
-        parts: Vec::new(),
-    }
+    Mesh::from(shell)
 }
 
 /// A block of 40 × 20 × 30 mm, in the millimetres of its file.

@@ -221,11 +221,7 @@ fn screw() {
 /// The body of grains that fills a surface.
 fn of_grains(surface: &dyn Surface<Space>, radius: f64, reach: f64) -> GrainBody {
     let shell = surface.shell().unwrap();
-    let mesh = Mesh {
-        vertices: shell.vertices,
-        triangles: shell.triangles,
-        parts: Vec::new(),
-    };
+    let mesh = Mesh::from(shell);
     GrainBody::build(&mesh, &GrainBodyOptions::new(radius, reach)).unwrap()
 }
 

@@ -200,9 +200,6 @@ impl Surface<Space> for ExactMesh {
     }
 
     fn shell(&self) -> Option<Shell> {
-        Some(Shell {
-            vertices: self.mesh.vertices.clone(),
-            triangles: self.mesh.triangles.clone(),
-        })
+        Some(self.mesh.shell())
     }
 }

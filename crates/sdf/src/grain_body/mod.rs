@@ -73,7 +73,7 @@ impl GrainBodyOptions {
 /// use tsubu_sdf::{Cuboid, GrainBody, GrainBodyOptions, Mesh};
 /// let block = Cuboid::<Space>::new(DVec3::ZERO, DVec3::splat(0.040))?;
 /// let shell = block.shell().unwrap();
-/// let mesh = Mesh { vertices: shell.vertices, triangles: shell.triangles, parts: Vec::new() };
+/// let mesh = Mesh::from(shell);
 /// // Grains of 2.5 mm radius; the first stands in the corner, at (2.5, 2.5, 2.5) mm.
 /// let body = GrainBody::build(&mesh, &GrainBodyOptions::new(0.0025, 0.01))?;
 /// assert_eq!(body.count(), 500);
@@ -203,9 +203,6 @@ impl Surface<Space> for GrainBody {
 
     /// The mesh that was filled; the wall grains lie within it or, in thin parts, stick out of it.
     fn shell(&self) -> Option<Shell> {
-        Some(Shell {
-            vertices: self.mesh.vertices.clone(),
-            triangles: self.mesh.triangles.clone(),
-        })
+        Some(self.mesh.shell())
     }
 }

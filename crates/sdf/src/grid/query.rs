@@ -116,6 +116,12 @@ impl DistanceGrid {
         }
     }
 
+    /// What storing nodes in four bytes may add to a value, in m.
+    #[inline]
+    fn rounding(&self, value: f64) -> f64 {
+        2e-7 * (value.abs() + 2.0 * self.nodes.cell)
+    }
+
     #[inline]
     fn cell_of(&self, x: DVec3) -> Option<Cell> {
         let nodes = &self.nodes;
@@ -177,8 +183,7 @@ impl Surface<Space> for DistanceGrid {
         match self.cell_of(x) {
             Some(cell) => {
                 let value = cell.value_and_slope().0;
-                let rounding = 2e-7 * (value.abs() + 2.0 * self.nodes.cell);
-                value - self.nodes.cell * cell.doubt() - rounding
+                value - self.nodes.cell * cell.doubt() - self.rounding(value)
             }
             None => crate::distance_to_box(x, self.body_box),
         }
@@ -191,12 +196,12 @@ impl Surface<Space> for DistanceGrid {
             return self.lower_bound(x) - reach;
         };
         let value = cell.value_and_slope().0;
-        let rounding = 2e-7 * (value.abs() + 2.0 * self.nodes.cell);
-        let bounded = value - self.nodes.cell * cell.doubt() - rounding - reach;
+        let beyond = value - self.rounding(value) - reach;
+        let bounded = beyond - self.nodes.cell * cell.doubt();
         if self.exact.is_some() {
             return bounded;
         }
-        bounded.max((value - rounding - reach) / 3f64.sqrt())
+        bounded.max(beyond / 3f64.sqrt())
     }
 
     fn hits(&self, x: &[DVec3], reach: &[f64], out: &mut HitBuffer<Space>) {
@@ -221,9 +226,6 @@ impl Surface<Space> for DistanceGrid {
     }
 
     fn shell(&self) -> Option<Shell> {
-        Some(Shell {
-            vertices: self.mesh.vertices.clone(),
-            triangles: self.mesh.triangles.clone(),
-        })
+        Some(self.mesh.shell())
     }
 }

@@ -8,6 +8,7 @@
 use glam::DVec3;
 use std::io::Read;
 use std::path::Path;
+use tsubu_model::Shell;
 
 mod caps;
 pub mod doctor;
@@ -59,7 +60,26 @@ pub struct Mesh {
     pub parts: Vec<Part>,
 }
 
+/// The triangles that a surface is drawn with, as a mesh of one part without a name.
+impl From<Shell> for Mesh {
+    fn from(shell: Shell) -> Self {
+        Self {
+            vertices: shell.vertices,
+            triangles: shell.triangles,
+            parts: Vec::new(),
+        }
+    }
+}
+
 impl Mesh {
+    /// Its triangles, to draw.
+    pub fn shell(&self) -> Shell {
+        Shell {
+            vertices: self.vertices.clone(),
+            triangles: self.triangles.clone(),
+        }
+    }
+
     /// Reads an STL or OBJ file whose numbers are in units of `metres_per_unit` m (0.001 for mm).
     ///
     /// Corners with equal coordinates become one vertex; nothing else is changed.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use tsubu_model::{HitBuffer, Space, Surface};
 use tsubu_picture::Figure;
-use tsubu_sdf::{Hand, Screw, ScrewSize};
+use tsubu_sdf::{Hand, Mesh, Screw, ScrewSize};
 
 /// Grains asked for at once, as by the engine.
 const BATCH: usize = 64;
@@ -86,7 +86,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     };
     let screw =
         Screw::new(DVec3::ZERO, DVec3::X * 0.2, size, Hand::Right).map_err(|e| e.to_string())?;
-    let mesh = shapes::mesh(screw.mesh(5e-5));
+    let mesh = Mesh::from(screw.mesh(5e-5));
     let radius = bench.kind.radius;
     let usual = shapes::usual_cell(&mesh, bench.kind.diameter());
     let shares: &[f64] = if report.full() {

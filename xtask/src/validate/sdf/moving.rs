@@ -7,7 +7,7 @@ use crate::validate::report::Report;
 use glam::DVec3;
 use std::sync::Arc;
 use tsubu_model::{Course, Motion, Shift, Space, Span, Turn, View};
-use tsubu_sdf::{Cylinder, HalfSpace};
+use tsubu_sdf::{Cylinder, HalfSpace, Mesh};
 
 fn steady(velocity: DVec3) -> Motion {
     Motion {
@@ -94,7 +94,7 @@ fn dragged(report: &mut Report, bench: &Bench) -> Result<(), String> {
     let shaft = Cylinder::new(from, to, radius).map_err(|e| e.to_string())?;
     // 3684 sides: at 10 rad/s a facet's tilt of 0.05° kicks the grain by 2.3e-4 m/s, (1 + e) times
     // that is 0.7 % of what weight gives in 5 ms.
-    let mesh = shapes::mesh(shaft.mesh(1e-8));
+    let mesh = Mesh::from(shaft.mesh(1e-8));
     let cell = shapes::usual_cell(&mesh, bench.kind.diameter());
     let band = bench.kind.radius + 2.5 * cell;
     let fine: [(&str, Shared); 2] = [

@@ -12,7 +12,7 @@ use crate::validate::report::Report;
 use glam::DVec3;
 use std::sync::Arc;
 use tsubu_model::{HitBuffer, Motion, Space, View};
-use tsubu_sdf::{Ball, Cavity, Cuboid, Cylinder, HalfSpace, Hand, Screw, ScrewSize, Tube};
+use tsubu_sdf::{Ball, Cavity, Cuboid, Cylinder, HalfSpace, Hand, Mesh, Screw, ScrewSize, Tube};
 
 /// A grain about to be laid down.
 struct Bed {
@@ -138,7 +138,7 @@ fn beds(bench: &Bench) -> Result<Vec<Bed>, String> {
     for (way, surface) in ways(
         bench,
         Arc::new(shaft.clone()),
-        &shapes::mesh(shaft.mesh(1e-6)),
+        &Mesh::from(shaft.mesh(1e-6)),
     )? {
         add(
             "top of a shaft",
@@ -152,7 +152,7 @@ fn beds(bench: &Bench) -> Result<Vec<Bed>, String> {
     for (way, surface) in ways(
         bench,
         Arc::new(casing.clone()),
-        &shapes::mesh(casing.mesh(1e-6)),
+        &Mesh::from(casing.mesh(1e-6)),
     )? {
         add(
             "inside of a tube",
@@ -184,7 +184,7 @@ fn beds(bench: &Bench) -> Result<Vec<Bed>, String> {
     let guess = DVec3::new(face + touch, -(size.shaft + touch), 0.0);
     let corner = nestled(&formula, guess, touch);
     let down = into(&formula, corner, touch);
-    for (way, surface) in ways(bench, formula, &shapes::mesh(screw.mesh(1e-5)))? {
+    for (way, surface) in ways(bench, formula, &Mesh::from(screw.mesh(1e-5)))? {
         add(
             "corner of shaft and flight",
             way,

@@ -10,15 +10,6 @@ use tsubu_sdf::{DistanceGrid, ExactMesh, GridOptions, Mesh};
 /// Any surface, shared with a world.
 pub type Shared = Arc<dyn Surface<Space>>;
 
-/// A shell as a mesh.
-pub fn mesh(shell: Shell) -> Mesh {
-    Mesh {
-        vertices: shell.vertices,
-        triangles: shell.triangles,
-        parts: Vec::new(),
-    }
-}
-
 /// The mesh turned and shifted.
 pub fn placed(mut mesh: Mesh, turn: DMat3, shift: DVec3) -> Mesh {
     for vertex in &mut mesh.vertices {
@@ -30,7 +21,10 @@ pub fn placed(mut mesh: Mesh, turn: DMat3, shift: DVec3) -> Mesh {
 /// A box between two corners.
 pub fn cuboid(low: DVec3, high: DVec3) -> Result<Mesh, String> {
     let block = tsubu_sdf::Cuboid::<Space>::new(low, high).map_err(|e| e.to_string())?;
-    block.shell().map(mesh).ok_or("a box has no shell".into())
+    block
+        .shell()
+        .map(Mesh::from)
+        .ok_or("a box has no shell".into())
 }
 
 /// A profile of (radius, height) turned about z: from pole to pole, or round and closed in itself.
@@ -53,7 +47,7 @@ pub fn turned(profile: &[[f64; 2]], closed: bool, steps: usize) -> Mesh {
             shell.triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
-    mesh(shell)
+    Mesh::from(shell)
 }
 
 /// A ball about the origin whose rings lie at these polar angles between the poles.

@@ -139,7 +139,7 @@ pub fn smooth_shapes() -> Result<Vec<Trial>, String> {
         Trial {
             name: "screw's flight",
             surface: Arc::new(screw),
-            mesh: shapes::mesh(screw.mesh(4e-7)),
+            mesh: Mesh::from(screw.mesh(4e-7)),
             cell: 4e-3,
             band: 6e-3,
             // Front and back of the flight without their edges; the flight's ends are other features.

@@ -55,7 +55,7 @@ pub fn walls(bench: &Bench) -> Result<Vec<Wall>, String> {
         Wall {
             name: "shaft, R = 27.5 mm",
             formula: Arc::new(shaft.clone()),
-            mesh: shapes::mesh(shaft.mesh(chord(SHAFT))),
+            mesh: Mesh::from(shaft.mesh(chord(SHAFT))),
             curvature: [1.0 / (SHAFT + half), 0.0],
             place: |s, t| {
                 let (sin, cos) = (0.9 * (t - 0.5)).sin_cos();
@@ -66,7 +66,7 @@ pub fn walls(bench: &Bench) -> Result<Vec<Wall>, String> {
         Wall {
             name: "inside of a tube, R = 114.8 mm",
             formula: Arc::new(casing.clone()),
-            mesh: shapes::mesh(casing.mesh(chord(CASING))),
+            mesh: Mesh::from(casing.mesh(chord(CASING))),
             curvature: [-1.0 / (CASING - half), 0.0],
             place: |s, t| {
                 let (sin, cos) = (0.9 * (t - 0.5)).sin_cos();
