@@ -49,11 +49,13 @@ impl Conveying {
             reading("screw_power", part.mean(|look| look.power), "W"),
             reading("mass_rate_from_section", section_rate, "kg/s"),
         ];
-        report.extend(
-            part.steady_from
-                .map(|t| Reading::new("steady_from", t, "s")),
-        );
-        let steady = f64::from(u8::from(part.steady_from.is_some()));
+        if let Some(steady) = part.steady {
+            report.push(Reading::new("steady_from", steady.from, "s"));
+            if o.outlet.is_some() {
+                report.push(Reading::new("steady_turns", steady.blocks as f64, "rev"));
+            }
+        }
+        let steady = f64::from(u8::from(part.steady.is_some()));
         report.push(Reading::new("steady", steady, "1"));
         report.push(Reading::new("turns", last.turns.abs(), "rev"));
         self.keep_known(&mut report);
@@ -115,7 +117,8 @@ impl Conveying {
     }
 
     /// The steady part of what the outlet passes: whole turns of the screw, since the rate swings once a turn,
-    /// from one turn after the section has filled.
+    /// from one turn after the section has filled. It drifts where the filling of the section does, which is known better
+    /// than the rate of a few turns.
     fn steady(&self, time: &[f64], mass: &[f64]) -> Option<Steady> {
         let half = &self.looks[self.looks.len() / 2..];
         let (a, b) = (half.first()?, half.last()?);
@@ -125,7 +128,8 @@ impl Conveying {
             return Steady::of_count(time, mass);
         }
         let section: Vec<f64> = self.looks.iter().map(|look| look.section.mass).collect();
-        let full = Steady::of(time, &section)?.from;
+        let filling = Steady::of(time, &section)?;
+        let full = filling.from;
         // Full from the first look on, but for what does not fill a cell of the search.
         let at_once = time.get(5).is_none_or(|t| full < *t);
         let from = if at_once {
@@ -133,7 +137,10 @@ impl Conveying {
         } else {
             full + turn
         };
-        Steady::of_periods(time, mass, turn, from)
+        Steady::of_periods(time, mass, turn, from).map(|rate| Steady {
+            drift: rate.drift || filling.drift,
+            ..rate
+        })
     }
 
     /// The steady part, or else the second half.
@@ -155,7 +162,7 @@ impl Conveying {
             None => measured(Blocked::of_count(&time[first..], &mass[first..])),
         };
         Part {
-            steady_from: steady.map(|steady| steady.from),
+            steady,
             rate,
             looks: &self.looks[first..],
         }
@@ -164,7 +171,7 @@ impl Conveying {
 
 /// The looks over which means are taken.
 struct Part<'a> {
-    steady_from: Option<f64>,
+    steady: Option<Steady>,
     rate: Measured,
     looks: &'a [Look],
 }

@@ -75,8 +75,9 @@ impl ConveyingOptions {
 /// * `turns` (rev): since the first look. Exact if the screw turns less than half a turn more or less between looks than
 ///   the mean of its speeds at both says.
 ///
-/// Report. The outlet's rate is steady from one turn after the section has filled, in whole turns ([`crate::Steady::of_periods`]); means are over that part, or over the second
-/// half of the time if there is none, and `steady` (1 or 0) says which. Uncertainties are from blocks ([`crate::Blocked`]), and of
+/// Report. The outlet's rate is steady from one turn after the section has filled, in whole turns ([`crate::Steady::of_periods`]),
+/// unless the filling of the section drifts; means are over that part, or over the second half of the time if there
+/// is none, and `steady` (1 or 0) says which. Uncertainties are from blocks ([`crate::Blocked`]), and of
 /// quotients from both parts as if they were independent.
 /// * `mass_rate` Q (kg/s): the slope of the outlet's mass.
 /// * `ratio_to_theory` = Q/(volume per turn · n_s ρb), a = 1; `ratio_to_theory_measured_a`: divided by the
@@ -85,7 +86,8 @@ impl ConveyingOptions {
 /// * `axial_efficiency`: mean axial speed over p n_s; `tangential_speed`; `screw_torque`; `screw_power`.
 /// * `mass_rate_from_section` (kg/s): Σ m v_axial/length, which is (section mass/length) × axial speed: in steady flow it
 ///   must agree with Q.
-/// * `steady_from` (s), absent if nothing is steady; `steady`; `turns`.
+/// * `steady_from` (s) and `steady_turns` (rev), how many whole turns `mass_rate` is the mean of: absent if nothing is steady;
+///   `steady`; `turns`.
 ///
 /// Figures: `outlet_mass`, `mass_rate` with the theory at a = 1 and the n_s of each look, `axial_speed` and `fill` along the axis.
 ///

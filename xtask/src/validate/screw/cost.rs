@@ -16,16 +16,22 @@ const STEPS: u64 = 500;
 const AWAY: &str = "Ball(centre: (\"-90 m\", \"0 m\", \"0 m\"), radius: \"1 mm\")";
 
 /// One way to say the walls, and the ns that a grain-step takes with it.
-struct Way {
-    name: &'static str,
+pub struct Way {
+    name: String,
     run: Box<dyn Simulation>,
-    cost: f64,
+    /// The best of its turns.
+    pub cost: f64,
 }
 
-/// The feeder at n = 3 and 60 r/min in full flow, on one thread, with the screw said in three ways and without any wall.
-pub fn run(report: &mut Report, root: &Path, print: u64) -> Result<(), String> {
-    let case = Case::of(3, 60.0);
-    let with = |name, shapes: &[(&str, &str)]| -> Result<Way, String> {
+impl Way {
+    /// A case in full flow on one thread, with these shapes of walls instead of its own.
+    pub fn in_flow(
+        case: &Case,
+        root: &Path,
+        print: u64,
+        name: &str,
+        shapes: &[(&str, &str)],
+    ) -> Result<Self, String> {
         let sets: Vec<String> = shapes
             .iter()
             .map(|(wall, shape)| format!("walls.{wall}.shape={shape}"))
@@ -33,12 +39,31 @@ pub fn run(report: &mut Report, root: &Path, print: u64) -> Result<(), String> {
         let mut run = build_on_one_thread(&case.in_flow(root, print, &sets)?)?.simulation;
         run.look();
         run.advance(STEPS);
-        Ok(Way {
-            name,
+        Ok(Self {
+            name: name.to_owned(),
             run,
             cost: f64::INFINITY,
         })
-    };
+    }
+}
+
+/// Times them in turns.
+pub fn take_turns(ways: &mut [Way]) {
+    for _ in 0..ROUNDS {
+        for way in &mut *ways {
+            let grains = way.run.grains() as f64;
+            let start = Instant::now();
+            way.run.advance(STEPS);
+            let cost = start.elapsed().as_secs_f64() * 1e9 / (grains * STEPS as f64);
+            way.cost = way.cost.min(cost);
+        }
+    }
+}
+
+/// The feeder at n = 3 and 60 r/min in full flow, with the screw said in three ways and without any wall.
+pub fn run(report: &mut Report, root: &Path, print: u64) -> Result<(), String> {
+    let case = Case::of(3, 60.0);
+    let with = |name, shapes: &[(&str, &str)]| Way::in_flow(&case, root, print, name, shapes);
     let [triangles, formula] = [Kind::Triangles, Kind::Analytic].map(Kind::shape);
     let no_walls = ["screw", "casing", "hopper"].map(|wall| (wall, AWAY));
     let mut ways = [
@@ -48,15 +73,7 @@ pub fn run(report: &mut Report, root: &Path, print: u64) -> Result<(), String> {
         with("no screw", &no_walls[..1])?,
         with("no walls", &no_walls)?,
     ];
-    for _ in 0..ROUNDS {
-        for way in &mut ways {
-            let grains = way.run.grains() as f64;
-            let start = Instant::now();
-            way.run.advance(STEPS);
-            let cost = start.elapsed().as_secs_f64() * 1e9 / (grains * STEPS as f64);
-            way.cost = way.cost.min(cost);
-        }
-    }
+    take_turns(&mut ways);
     let [.., no_screw, none] = &ways;
     let (no_screw, none) = (no_screw.cost, none.cost);
     for way in &ways {

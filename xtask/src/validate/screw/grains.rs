@@ -4,6 +4,7 @@
 //! reach, and n = 2 takes hours; here are n = 4 and 3. One pitch without ends would be cheaper, but wall grains do not
 //! repeat with it.
 
+use super::TUBE;
 use super::kept::Measured;
 use super::runs::{Case, Kind};
 use crate::validate::report::Report;
@@ -13,6 +14,51 @@ use tsubu_picture::Figure;
 const RPM: f64 = 100.0;
 /// Coarse level and radii of wall grains in µm: the grains' own (10.8 and 5.4 mm), a half and a quarter of it.
 const RADII: [(u32, [u32; 3]); 2] = [(4, [10_800, 5_400, 2_700]), (3, [5_400, 2_700, 1_350])];
+
+fn in_repelling_casing(kind: Kind, coarse: u32, rpm: f64) -> Case {
+    Case {
+        kind,
+        smooth: true,
+        ..Case::of(coarse, rpm)
+    }
+}
+
+fn tell(report: &mut Report, case: &Case, measured: &Measured) {
+    let name = format!(
+        "{}, repelling casing, screw of {}",
+        case.name(),
+        case.kind.name()
+    );
+    let told = [
+        ("mass_rate", "mass rate through the outlet, kg/s"),
+        (TUBE, "mass rate in the tube, kg/s"),
+        ("ratio_to_theory", "rate over theory at a = 1"),
+        ("fill_ratio", "filling ratio a"),
+        ("axial_efficiency", "axial speed over p n"),
+    ];
+    for (reading, what) in told {
+        let (value, error) = measured.get(reading);
+        report.tell(format!("{name}: {what}"), value, &format!("± {error:.3}"));
+    }
+}
+
+/// The finest screw of grains at n = 3 at these speeds.
+pub fn at_speeds(
+    report: &mut Report,
+    speeds: &[f64],
+    all: &impl Fn(&[Case]) -> Result<Vec<Measured>, String>,
+) -> Result<Vec<Measured>, String> {
+    let (coarse, [.., finest]) = RADII[1];
+    let cases: Vec<Case> = speeds
+        .iter()
+        .map(|&rpm| in_repelling_casing(Kind::Grains(finest), coarse, rpm))
+        .collect();
+    let measured = all(&cases)?;
+    for (case, measured) in cases.iter().zip(&measured) {
+        tell(report, case, measured);
+    }
+    Ok(measured)
+}
 
 /// The rate against rs/rp: the rates in the tube, whose errors are smaller than those of the outlet.
 pub fn run(
@@ -26,33 +72,14 @@ pub fn run(
     )
     .log_x();
     for (coarse, radii) in RADII {
-        let case = |kind| Case {
-            kind,
-            smooth: true,
-            ..Case::of(coarse, RPM)
-        };
+        let case = |kind| in_repelling_casing(kind, coarse, RPM);
         let mut cases: Vec<Case> = radii.iter().map(|&r| case(Kind::Grains(r))).collect();
         cases.push(case(Kind::Grid));
         let measured = all(&cases)?;
         for (case, measured) in cases.iter().zip(&measured) {
-            let name = format!(
-                "{}, repelling casing, screw of {}",
-                case.name(),
-                case.kind.name()
-            );
-            let told = [
-                ("mass_rate", "mass rate through the outlet, kg/s"),
-                ("mass_rate_from_section", "mass rate in the tube, kg/s"),
-                ("ratio_to_theory", "rate over theory at a = 1"),
-                ("fill_ratio", "filling ratio a"),
-                ("axial_efficiency", "axial speed over p n"),
-            ];
-            for (reading, what) in told {
-                let (value, error) = measured.get(reading);
-                report.tell(format!("{name}: {what}"), value, &format!("± {error:.3}"));
-            }
+            tell(report, case, measured);
         }
-        let tube = |m: &Measured| m.get("mass_rate_from_section");
+        let tube = |m: &Measured| m.get(TUBE);
         let rp = 0.675 * f64::from(1u32 << coarse);
         let x = radii.map(|r| f64::from(r) * 1e-3 / rp);
         let (y, e): (Vec<f64>, Vec<f64>) = measured[..3].iter().map(tube).unzip();

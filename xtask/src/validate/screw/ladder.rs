@@ -208,7 +208,8 @@ fn offsets(report: &mut Report, surface: &Found, centre: &Found) {
 /// The two readings in the whole feeder, which draws what it can.
 pub fn offsets_of_feeder(report: &mut Report, coarse: u32, surface: &Measured, centre: &Measured) {
     let half = 0.5 * 1.350e-3 * f64::from(1u32 << coarse);
-    let ((a, ea), (b, eb)) = (surface.get("mass_rate"), centre.get("mass_rate"));
+    let tube = "mass_rate_from_section";
+    let ((a, ea), (b, eb)) = (surface.get(tube), centre.get(tube));
     report.beside(
         format!("feeder, n = {coarse}, 60 r/min: rate with s = R over that with s = R + d/2"),
         most(half) / most(0.0),

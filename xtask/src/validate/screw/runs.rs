@@ -130,13 +130,11 @@ impl Case {
         }
     }
 
-    /// Seconds from the start of the screw: until the tube is full (its length over p n, a tenth slower),
-    /// then four turns (three where they are slow), since the rate swings once a turn, and one second for
-    /// grains to fall out. A start in the flow of another speed would save nothing: the change takes as long to come
-    /// through the tube.
+    /// Seconds from the start of the screw: four turns and a half until the tube is full, the turn after that, and four that
+    /// are measured, since the rate swings once a turn. A start in the flow of another speed would save nothing: the
+    /// change takes as long to come through the tube.
     pub fn until(&self) -> f64 {
-        let turns = if self.rpm < 50.0 { 3.0 } else { 4.0 };
-        (103.0 + 60.0 * turns) / self.rpm + 1.0
+        60.0 * 9.5 / self.rpm
     }
 
     fn sets(&self) -> Vec<String> {
