@@ -12,12 +12,13 @@ use crate::surfaces::{Shaped, Shapes};
 use std::path::PathBuf;
 use std::sync::Arc;
 use tsubu_engine::{
-    Body, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally, World,
+    Body, KindSet, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally,
+    World,
 };
 use tsubu_measure::Slices;
 use tsubu_model::{
-    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, Still, Surface, Turn,
-    Vector,
+    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, SpinState, Still,
+    Surface, Turn, Vector,
 };
 use tsubu_scene as scene;
 use tsubu_scene::{Axis, Checked, Removal, SceneError};
@@ -125,11 +126,15 @@ fn in_dimension<D: Shaped + Slices>(
     let law = constants.law;
     let share = checked.scene.still.map_or(1.0, |s| s.damping);
     let settling = law.softened(1.0, share, share);
+    let (kinds, walls) = (OneKind([constants.kind]), constants.walls.clone());
+    let (sided, settling_sided) = (law.per_direction(), settling.per_direction());
     let simulation = match (constants.isotropic, energies) {
-        (true, false) => parts.run::<_, NoTally>(law, settling),
-        (true, true) => parts.run::<_, WithTally>(law, settling),
-        (false, false) => parts.run::<_, NoTally>(law.per_direction(), settling.per_direction()),
-        (false, true) => parts.run::<_, WithTally>(law.per_direction(), settling.per_direction()),
+        (true, false) => parts.run::<Still, _, _, _, NoTally>(kinds, law, settling, walls),
+        (true, true) => parts.run::<Still, _, _, _, WithTally>(kinds, law, settling, walls),
+        (false, false) => parts.run::<Still, _, _, _, NoTally>(kinds, sided, settling_sided, walls),
+        (false, true) => {
+            parts.run::<Still, _, _, _, WithTally>(kinds, sided, settling_sided, walls)
+        }
     };
     Ok(Built { simulation, plan })
 }
@@ -147,9 +152,12 @@ struct Parts<'a, D: Layout> {
 
 impl<D: Layout + Slices> Parts<'_, D> {
     /// `settling` is the law until the release, `law` from then on; without a release `law` throughout.
-    fn run<L, T>(self, law: L, settling: L) -> Box<dyn Simulation>
+    fn run<S, K, L, W, T>(self, kinds: K, law: L, settling: L, walls: Vec<W>) -> Box<dyn Simulation>
     where
-        L: ContactLaw<D, Still> + 'static,
+        S: SpinState,
+        K: KindSet,
+        L: ContactLaw<D, S> + 'static,
+        W: ContactLaw<D, S> + 'static,
         T: Tally,
     {
         let scene = &self.checked.scene;
@@ -157,11 +165,11 @@ impl<D: Layout + Slices> Parts<'_, D> {
             .walls
             .iter()
             .zip(&self.surfaces)
-            .zip(&self.constants.walls)
+            .zip(walls)
             .map(|((wall, surface), law)| Body {
                 name: wall.name.clone(),
                 surface: surface.clone(),
-                law: *law,
+                law,
                 touches_at: match (wall.shape.wall_grains(), wall.touches_at) {
                     (Some(radius), _) => TouchesAt::WallGrains(radius),
                     (None, scene::TouchesAt::Surface) => TouchesAt::Surface,
@@ -182,7 +190,7 @@ impl<D: Layout + Slices> Parts<'_, D> {
             (law, None)
         };
         let world = World::new(Setup {
-            kinds: OneKind([self.constants.kind]),
+            kinds,
             law,
             bodies,
             domain: self.domain,
@@ -203,7 +211,7 @@ impl<D: Layout + Slices> Parts<'_, D> {
                 .collect(),
         });
         let movers: Vec<bool> = scene.walls.iter().map(|w| w.motion.is_some()).collect();
-        Box::new(Running::<D, L, T> {
+        Box::new(Running::<D, S, K, L, W, T> {
             shells: self
                 .surfaces
                 .iter()
@@ -318,8 +326,11 @@ fn gate_every(scene: &scene::Scene, dt: f64) -> u64 {
     still.clamp(1, 1000)
 }
 
-fn gates_of<D: Dim>(scene: &scene::Scene, constants: &Constants) -> Vec<Box<dyn Gate<D, Still>>> {
-    let mut gates: Vec<Box<dyn Gate<D, Still>>> = Vec::new();
+fn gates_of<D: Dim, S: SpinState>(
+    scene: &scene::Scene,
+    constants: &Constants,
+) -> Vec<Box<dyn Gate<D, S>>> {
+    let mut gates: Vec<Box<dyn Gate<D, S>>> = Vec::new();
     let changes = WallChanges::of(scene);
     if changes.is_needed() {
         gates.push(Box::new(changes));

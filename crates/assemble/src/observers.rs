@@ -5,7 +5,7 @@ use std::sync::Arc;
 use tsubu_measure::{
     Balance, Conveying, ConveyingOptions, Energy, Flow, Heap, HeapOptions, Loads, Slices, Structure,
 };
-use tsubu_model::{Dim, Domain, Observer, Still, Surface, Vector};
+use tsubu_model::{Dim, Domain, Observer, SpinState, Surface, Vector};
 use tsubu_scene as scene;
 use tsubu_scene::{Removal, Shape};
 
@@ -45,14 +45,14 @@ fn conveying_of<D: Dim>(
 }
 
 /// All that look at a run, in the order of their rows.
-pub(crate) fn observers_of<D: Slices>(
+pub(crate) fn observers_of<D: Slices, S: SpinState>(
     scene: &scene::Scene,
     constants: &Constants,
     domain: &Domain<D>,
     surfaces: &[Arc<dyn Surface<D>>],
     movers: &[bool],
-) -> Vec<Box<dyn Observer<D, Still>>> {
-    let mut observers: Vec<Box<dyn Observer<D, Still>>> = Vec::new();
+) -> Vec<Box<dyn Observer<D, S>>> {
+    let mut observers: Vec<Box<dyn Observer<D, S>>> = Vec::new();
     let depth = (D::V::AXES == 3 && domain.is_periodic(1)).then(|| domain.period.axis(1));
     let removed = scene.walls.iter().find(|w| w.removed != Removal::Never);
     if let Some(removed) = removed {
@@ -76,7 +76,7 @@ pub(crate) fn observers_of<D: Slices>(
     }
     if let Some(wanted) = &scene.measures.conveying {
         let conveying = conveying_of(scene, wanted, surfaces);
-        observers.extend(conveying.map(|c| Box::new(c) as Box<dyn Observer<D, Still>>));
+        observers.extend(conveying.map(|c| Box::new(c) as Box<dyn Observer<D, S>>));
     }
     if scene.output.energies {
         observers.push(Box::new(Energy::new()));

@@ -3,11 +3,10 @@
 use crate::gate::agitation;
 use glam::DVec3;
 use std::sync::Arc;
-use tsubu_contact::BodyLaw;
-use tsubu_engine::{Health, Layout, OneKind, Tally, World};
+use tsubu_engine::{Health, KindSet, Layout, Tally, World};
 use tsubu_model::{
-    Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Pose, Reading, Shell, Still, Surface,
-    View,
+    Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Pose, Reading, Shell, SpinState,
+    Surface, View,
 };
 use tsubu_scene::End;
 
@@ -117,15 +116,22 @@ pub trait Simulation: Send {
 }
 
 /// The one implementation.
-pub(crate) struct Running<D: Layout, L: ContactLaw<D, Still>, T: Tally> {
-    pub world: World<D, Still, OneKind, L, BodyLaw, T>,
+pub(crate) struct Running<
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    W: ContactLaw<D, S>,
+    T: Tally,
+> {
+    pub world: World<D, S, K, L, W, T>,
     pub surfaces: Vec<Arc<dyn Surface<D>>>,
     /// Triangles of the surfaces that have some.
     pub shells: Vec<Option<Arc<Shell>>>,
     /// Which bodies move at some time.
     pub movers: Vec<bool>,
-    pub gates: Vec<Box<dyn Gate<D, Still>>>,
-    pub observers: Vec<Box<dyn Observer<D, Still>>>,
+    pub gates: Vec<Box<dyn Gate<D, S>>>,
+    pub observers: Vec<Box<dyn Observer<D, S>>>,
     /// Steps between two looks of the gates.
     pub gate_every: u64,
     pub end: End,
@@ -145,10 +151,13 @@ pub(crate) struct Release {
     pub at_step: Option<u64>,
 }
 
-impl<D, L, T> Running<D, L, T>
+impl<D, S, K, L, W, T> Running<D, S, K, L, W, T>
 where
     D: Layout,
-    L: ContactLaw<D, Still>,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    W: ContactLaw<D, S>,
     T: Tally,
 {
     fn end_after(&self) -> u64 {
@@ -191,10 +200,13 @@ where
     }
 }
 
-impl<D, L, T> Simulation for Running<D, L, T>
+impl<D, S, K, L, W, T> Simulation for Running<D, S, K, L, W, T>
 where
     D: Layout,
-    L: ContactLaw<D, Still>,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    W: ContactLaw<D, S>,
     T: Tally,
 {
     fn advance(&mut self, steps: u64) -> u64 {
@@ -263,7 +275,7 @@ where
     }
 
     fn agitation(&self) -> f64 {
-        agitation(&self.world as &dyn View<D, Still>)
+        agitation(&self.world as &dyn View<D, S>)
     }
 
     fn look(&mut self) -> Vec<Reading> {

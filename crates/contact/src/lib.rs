@@ -1,7 +1,8 @@
 //! Contact laws: how two grains, or a grain and a wall, push each other.
 //!
 //! [`Repulsion`] is the exemplar: read `repulsion.rs` first, copy its shape for a new law, and enrol
-//! the law in the conformance suite with one line of [`testing`].
+//! the law in the conformance suite with one line of [`testing`]. [`SpringDashpot`] is the one to copy for
+//! grains that turn and contacts that remember.
 //!
 //! ```
 //! use tsubu_contact::Repulsion;
@@ -13,11 +14,13 @@
 mod body_law;
 mod repulsion;
 pub mod restitution;
+mod spring_dashpot;
 pub mod testing;
 mod wall;
 mod wall_grains;
 
 pub use body_law::{BodyLaw, BodyPair};
 pub use repulsion::{Damping, Isotropic, PerDirection, Repulsion, RepulsionPair};
+pub use spring_dashpot::{Normal, Slip, SpringDashpot, SpringDashpotPair, Stretch, Tension};
 pub use wall::{RepulsiveWall, RepulsiveWallPair};
 pub use wall_grains::WallGrains;

@@ -325,7 +325,7 @@ impl<G: Damping, D: Dim, S: SpinState> ContactLaw<D, S> for Repulsion<G> {
             elastic,
             viscous,
             slip: D::V::ZERO,
-            torque: Default::default(),
+            twist: Default::default(),
         }
     }
 

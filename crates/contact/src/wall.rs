@@ -103,7 +103,7 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for RepulsiveWall {
             elastic: normal * elastic,
             viscous: normal * (pressed - elastic),
             slip: sliding * -drag,
-            torque: Default::default(),
+            twist: Default::default(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::chunk::{CHUNK, Chunk};
 use crate::kinds::KindSet;
-use crate::line::{Layout, Line};
+use crate::line::{Layout, Line, has_second_line};
 use crate::world::{Tally, World};
 use tsubu_model::{Change, ContactLaw, SpinState, Vector, View};
 
@@ -45,11 +45,13 @@ where
         fates.dedup_by_key(|fate| fate.0);
         let held = |world: &Self| if T::ON { world.energies().held() } else { 0.0 };
         let before = held(self);
+        // Contacts of grains that go or are put elsewhere are forgotten, by their partners too.
+        self.take_memory(|identity| fates.binary_search_by_key(&identity, |fate| fate.0).is_ok());
         self.let_go(&fates);
         self.let_in(&arrivals);
         self.in_pool(|world| {
             world.build_lists();
-            world.forces();
+            world.forces(false);
         });
         self.brought_by_grains += held(self) - before;
     }
@@ -62,10 +64,11 @@ where
                 .binary_search_by_key(&self.identity[i], |fate| fate.0)
                 .ok()
                 .map(|at| fates[at]);
-            let mass = self.kind_of(i).mass;
+            // What no force moves has no mass to weigh.
+            let mass = Some(self.kind_of(i).mass).filter(|m| m.is_finite());
             if let Some((_, place, gate)) = fate {
                 if let Some(passage) = self.passages.get_mut(gate) {
-                    passage.mass += mass;
+                    passage.mass += mass.unwrap_or(0.0);
                     if place.is_some() {
                         passage.moved += 1;
                     } else {
@@ -75,12 +78,24 @@ where
                 let Some(place) = place else { continue };
                 self.lines[i].set_position::<D>(self.domain.wrap(place));
                 self.lines[i].set_velocity::<D>(D::V::ZERO);
+                if const { has_second_line::<D, S>() } {
+                    self.spins[i] = Line([0.0; 8]);
+                } else {
+                    self.lines[i].set_spin::<D, S>(S::Turn::<D>::ZERO);
+                }
+            }
+            if const { has_second_line::<D, S>() } {
+                self.spins[kept] = self.spins[i];
+            }
+            if self.memory_is_taken {
+                self.origin[kept] = i as u32;
             }
             self.lines[kept] = self.lines[i];
             self.identity[kept] = self.identity[i];
             kept += 1;
         }
         self.identity.truncate(kept);
+        self.origin.truncate(kept);
         self.lines.truncate(kept);
         self.lines.push(Line::dummy::<D>());
     }
@@ -93,12 +108,19 @@ where
             self.lines
                 .push(Line::new::<D>(place, D::V::ZERO, radius, kind));
             self.identity.push(self.next_identity);
+            if self.memory_is_taken {
+                self.origin.push(u32::MAX);
+            }
             self.next_identity += 1;
             if let Some(passage) = self.passages.get_mut(gate) {
                 passage.came += 1;
             }
         }
         self.lines.push(Line::dummy::<D>());
+        if const { has_second_line::<D, S>() } {
+            self.spins.truncate(self.identity.len());
+            self.spins.resize(self.lines.len(), Line([0.0; 8]));
+        }
     }
 
     /// Arrays and chunks for as many grains as there are; the books of a chunk that goes are kept.
@@ -110,6 +132,7 @@ where
         }
         self.home.resize(n, D::V::ZERO);
         self.force.resize(n, D::V::ZERO);
+        self.torque.resize(n, S::Turn::<D>::ZERO);
         if T::ON {
             self.viscous.resize(n, D::V::ZERO);
         }

@@ -3,8 +3,8 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use tsubu_model::{Dim, HitBuffer};
-use tsubu_neighbors::ChunkList;
+use tsubu_model::{Dim, HitBuffer, MOST_NUMBERS, Seen};
+use tsubu_neighbors::{ChunkList, ChunkMemory};
 
 /// Grains per chunk.
 pub(crate) const CHUNK: usize = 512;
@@ -30,6 +30,17 @@ pub(crate) struct WallPart<D: Dim> {
     pub wall: D::V,
 }
 
+/// What a contact with a body remembers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WallMemory {
+    /// Identity of the grain.
+    pub grain: u32,
+    pub body: u32,
+    /// Which part of the body's surface.
+    pub feature: u32,
+    pub numbers: [f64; MOST_NUMBERS],
+}
+
 /// What the grains of a chunk do to a body.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Load<V> {
@@ -42,6 +53,12 @@ pub(crate) struct Load<V> {
 #[derive(Debug)]
 pub(crate) struct Chunk<D: Dim> {
     pub list: ChunkList,
+    /// What the contacts of the list remember.
+    pub memory: ChunkMemory,
+    /// What contacts with bodies remember: before this step, and being written in it. In the order of the wall pass.
+    pub wall_memory: [Vec<WallMemory>; 2],
+    /// The grains as loads see them.
+    pub seen: Vec<Seen<D>>,
     pub near: Vec<Near>,
     /// How far its grains may have moved since `near` was noted, in m.
     pub moved: f64,
@@ -87,6 +104,9 @@ impl<D: Dim> Chunk<D> {
     pub fn new(bodies: usize) -> Self {
         Self {
             list: ChunkList::default(),
+            memory: ChunkMemory::default(),
+            wall_memory: [Vec::new(), Vec::new()],
+            seen: Vec::new(),
             near: Vec::new(),
             moved: 0.0,
             asked: Vec::new(),
@@ -103,7 +123,11 @@ impl<D: Dim> Chunk<D> {
     }
 
     pub fn bytes(&self) -> usize {
+        let wall_memory: usize = self.wall_memory.iter().map(Vec::capacity).sum();
         self.list.bytes()
+            + self.memory.bytes()
+            + wall_memory * size_of::<WallMemory>()
+            + self.seen.capacity() * size_of::<Seen<D>>()
             + size_of::<Self>()
             + self.near.capacity() * size_of::<Near>()
             + self.asked.capacity() * 4

@@ -10,7 +10,7 @@
 
 use crate::kinds::KindSet;
 use crate::line::{Layout, Line};
-use crate::pass::{Job, chunk_forces};
+use crate::pass::{Job, Out, chunk_forces};
 use crate::world::Tally;
 use tsubu_model::{ContactLaw, SpinState};
 use tsubu_neighbors::LANES;
@@ -86,12 +86,8 @@ pub(crate) trait Gather {
 
 /// The force loop of a chunk on the vector path `lanes`.
 /// A path that the machine lacks is never taken: the portable one runs instead.
-pub(crate) fn run<D, S, K, L, T>(
-    lanes: Lanes,
-    job: &Job<'_, D, S, K, L, T>,
-    force: &mut [D::V],
-    viscous: &mut [D::V],
-) where
+pub(crate) fn run<D, S, K, L, T>(lanes: Lanes, job: &Job<'_, D, S, K, L, T>, out: Out<'_, D, S>)
+where
     D: Layout,
     S: SpinState,
     K: KindSet,
@@ -101,11 +97,11 @@ pub(crate) fn run<D, S, K, L, T>(
     match lanes {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: the features were detected on this machine.
-        Lanes::Avx512 if lanes.is_here() => unsafe { x86::run_avx512(job, force, viscous) },
+        Lanes::Avx512 if lanes.is_here() => unsafe { x86::run_avx512(job, out) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Lanes::Avx2 if lanes.is_here() => unsafe { x86::run_avx2(job, force, viscous) },
-        _ => chunk_forces::<D, S, K, L, T, Plain, 8>(job, force, viscous),
+        Lanes::Avx2 if lanes.is_here() => unsafe { x86::run_avx2(job, out) },
+        _ => chunk_forces::<D, S, K, L, T, Plain, 8>(job, out),
     }
 }
 
@@ -132,34 +128,28 @@ mod x86 {
 
     /// SAFETY: the machine must have AVX-512 F, DQ and VL.
     #[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
-    pub(super) unsafe fn run_avx512<D, S, K, L, T>(
-        job: &Job<'_, D, S, K, L, T>,
-        force: &mut [D::V],
-        viscous: &mut [D::V],
-    ) where
+    pub(super) unsafe fn run_avx512<D, S, K, L, T>(job: &Job<'_, D, S, K, L, T>, out: Out<'_, D, S>)
+    where
         D: Layout,
         S: SpinState,
         K: KindSet,
         L: ContactLaw<D, S>,
         T: Tally,
     {
-        chunk_forces::<D, S, K, L, T, Avx512, 16>(job, force, viscous)
+        chunk_forces::<D, S, K, L, T, Avx512, 16>(job, out)
     }
 
     /// SAFETY: the machine must have AVX2.
     #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn run_avx2<D, S, K, L, T>(
-        job: &Job<'_, D, S, K, L, T>,
-        force: &mut [D::V],
-        viscous: &mut [D::V],
-    ) where
+    pub(super) unsafe fn run_avx2<D, S, K, L, T>(job: &Job<'_, D, S, K, L, T>, out: Out<'_, D, S>)
+    where
         D: Layout,
         S: SpinState,
         K: KindSet,
         L: ContactLaw<D, S>,
         T: Tally,
     {
-        chunk_forces::<D, S, K, L, T, Avx2, 8>(job, force, viscous)
+        chunk_forces::<D, S, K, L, T, Avx2, 8>(job, out)
     }
 
     /// The line of lane `k`: indices were checked against the number of lines when the list was built.

@@ -4,21 +4,25 @@
 //! `tsubu-model`. A step cannot fail; trouble is a [`Health`] read outside the loop.
 //!
 //! Read in this order: `line` (what the force loop reads of a grain), `pass` (the force loop),
-//! `lanes` (the fenced vector module), `walls`, `near`, `kick`, `world` (one step), `sweeps`, `rebuild`,
-//! `changes`, `look`.
+//! `lanes` (the fenced vector module), `walls`, `near`, `forces`, `kick`, `turning`, `world` (one step), `sweeps`,
+//! `rebuild`, `changes`, `pairs`, `look`, `modes`.
 
 mod changes;
 mod chunk;
+mod forces;
 mod health;
 mod kick;
 mod kinds;
 mod lanes;
 mod line;
 mod look;
+mod modes;
 mod near;
+mod pairs;
 mod pass;
 mod rebuild;
 mod sweeps;
+mod turning;
 mod walls;
 mod world;
 

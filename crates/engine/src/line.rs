@@ -1,6 +1,6 @@
 //! The line: the 64 bytes that the force loop reads of a grain.
 
-use tsubu_model::{Dim, Plane, Space, Vector};
+use tsubu_model::{Dim, Plane, Space, SpinState, Vector};
 
 /// One grain as the force loop sees it, one cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,7 +8,7 @@ use tsubu_model::{Dim, Plane, Space, Vector};
 pub struct Line(pub [f64; 8]);
 
 /// Where a dimension keeps what in a [`Line`].
-/// Space: x y z radius, vx vy vz kind. Plane: x z vx vz, ω radius kind –.
+/// Space: x y z radius, vx vy vz kind; a spin there has a line of its own. Plane: x z vx vz, ω radius kind –.
 pub trait Layout: Dim {
     /// First coordinate.
     const POSITION: usize;
@@ -18,6 +18,13 @@ pub trait Layout: Dim {
     const RADIUS: usize;
     /// Number of the kind.
     const KIND: usize;
+    /// The spin, in the line of the grain if it is one number, else in a second line.
+    const SPIN: usize;
+}
+
+/// True if the spin does not fit into the grain's line and has a second one.
+pub(crate) const fn has_second_line<D: Layout, S: SpinState>() -> bool {
+    <S::Turn<D> as Vector>::AXES > 1
 }
 
 impl Layout for Space {
@@ -25,6 +32,7 @@ impl Layout for Space {
     const VELOCITY: usize = 4;
     const RADIUS: usize = 3;
     const KIND: usize = 7;
+    const SPIN: usize = 0;
 }
 
 impl Layout for Plane {
@@ -32,6 +40,7 @@ impl Layout for Plane {
     const VELOCITY: usize = 2;
     const RADIUS: usize = 5;
     const KIND: usize = 6;
+    const SPIN: usize = 4;
 }
 
 impl Line {
@@ -78,6 +87,19 @@ impl Line {
     pub(crate) fn set_velocity<D: Layout>(&mut self, v: D::V) {
         for a in 0..D::V::AXES {
             self.0[D::VELOCITY + a] = v.axis(a);
+        }
+    }
+
+    /// Of the line that has it.
+    #[inline(always)]
+    pub(crate) fn spin<D: Layout, S: SpinState>(&self) -> S::Turn<D> {
+        S::Turn::<D>::from_axes(|a| self.0[D::SPIN + a])
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_spin<D: Layout, S: SpinState>(&mut self, w: S::Turn<D>) {
+        for a in 0..<S::Turn<D> as Vector>::AXES {
+            self.0[D::SPIN + a] = w.axis(a);
         }
     }
 }

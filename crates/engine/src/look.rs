@@ -4,7 +4,8 @@ use crate::chunk::CHUNK;
 use crate::health::Health;
 use crate::kinds::KindSet;
 use crate::line::Layout;
-use crate::world::{Tally, World, touch_of};
+use crate::line::has_second_line;
+use crate::world::{Tally, World};
 use glam::DVec3;
 use tsubu_model::{
     BodyState, ContactLaw, Energies, Kind, Numbers, Passage, SpinState, TouchingPair, Vector, View,
@@ -19,13 +20,17 @@ where
     W: ContactLaw<D, S>,
     T: Tally,
 {
-    /// Every listed pair once, in the order of the lists.
-    fn pairs_once(&self, mut each: impl FnMut(usize, usize)) {
+    /// Every listed pair once, in the order of the lists, with what its contact remembers.
+    pub(crate) fn pairs_once(&self, mut each: impl FnMut(usize, usize, L::Memory)) {
         for (number, chunk) in self.chunks.iter().enumerate() {
-            for (slot, j) in chunk.list.iter() {
+            for (block, lane, slot, j) in chunk.list.entries_in_blocks() {
                 let i = number * CHUNK + slot;
                 if i < j {
-                    each(i, j);
+                    let mut memory = L::Memory::zero();
+                    for m in 0..L::Memory::N {
+                        memory.set(m, chunk.memory.get(block, lane, m));
+                    }
+                    each(i, j, memory);
                 }
             }
         }
@@ -77,6 +82,14 @@ where
         self.lines[i].velocity::<D>()
     }
 
+    fn spin(&self, i: usize) -> S::Turn<D> {
+        if const { has_second_line::<D, S>() } {
+            self.spins[i].spin::<D, S>()
+        } else {
+            self.lines[i].spin::<D, S>()
+        }
+    }
+
     fn kind(&self, i: usize) -> &Kind {
         self.kind_of(i)
     }
@@ -121,19 +134,20 @@ where
         let mut e = Energies::default();
         for i in 0..self.len() {
             let kind = self.kind_of(i);
-            e.kinetic += 0.5 * kind.mass * self.velocity(i).length_squared();
+            let spin = View::spin(self, i);
+            // What no force moves has no energy to give.
+            if kind.mass.is_finite() {
+                e.kinetic += 0.5 * kind.mass * self.velocity(i).length_squared();
+            }
+            if <S::Turn<D> as Vector>::AXES > 0 && kind.inertia.is_finite() {
+                e.kinetic += 0.5 * kind.inertia * spin.length_squared();
+            }
             e.gravitational -= kind.weight * self.gravity.dot(self.position(i));
         }
-        self.pairs_once(|i, j| {
-            let (pair, touch) = touch_of::<D, S, K, L>(
-                &self.lines,
-                &self.pairs,
-                self.kinds.all().len(),
-                &self.domain,
-                i,
-                j,
-            );
-            e.elastic += L::stored(pair, &touch, &L::Memory::zero());
+        let pairs = self.pairs();
+        self.pairs_once(|i, j, memory| {
+            let (pair, touch) = pairs.touch::<S, K>(i, j);
+            e.elastic += L::stored(pair, &touch, &memory);
         });
         e.elastic_walls = self.stored_in_walls().iter().sum();
         [
@@ -148,15 +162,9 @@ where
     }
 
     fn touching(&self, each: &mut dyn FnMut(TouchingPair)) {
-        self.pairs_once(|i, j| {
-            let (pair, touch) = touch_of::<D, S, K, L>(
-                &self.lines,
-                &self.pairs,
-                self.kinds.all().len(),
-                &self.domain,
-                i,
-                j,
-            );
+        let pairs = self.pairs();
+        self.pairs_once(|i, j, _| {
+            let (pair, touch) = pairs.touch::<S, K>(i, j);
             let overlap = L::range(pair) - touch.r();
             if overlap > 0.0 {
                 each(TouchingPair { i, j, overlap });

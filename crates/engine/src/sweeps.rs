@@ -4,8 +4,9 @@ use crate::chunk::CHUNK;
 use crate::kick::Kick;
 use crate::kinds::KindSet;
 use crate::line::Layout;
-use crate::walls::{WallJob, strongest, wall_damping};
-use crate::world::{Tally, World, touch_of};
+use crate::pairs::Pairs;
+use crate::walls::{Own, WallJob, strongest, wall_linear};
+use crate::world::{Tally, World};
 use tsubu_integrate::Drift;
 use tsubu_model::{ContactLaw, SpinState};
 
@@ -28,7 +29,7 @@ where
         self.diagonal_damping();
         for sweep in 0..sweeps {
             if sweep > 0 {
-                self.forces();
+                self.forces(sweep + 1 == sweeps);
             }
             let kick = Kick {
                 kinds: self.kinds.all(),
@@ -71,6 +72,7 @@ where
                 base,
             );
         }
+        self.kick_spins(h);
     }
 
     /// Sum of the dampings of each grain's contacts at the present positions.
@@ -81,6 +83,14 @@ where
             poses: &self.poses,
             moved: &self.body_moved,
             dt: self.dt,
+            keep: false,
+        };
+        let pairs = Pairs {
+            lines: &self.lines,
+            spins: &self.spins,
+            pairs: &self.pairs,
+            kinds: self.kinds.all().len(),
+            domain: &self.domain,
         };
         for (number, (chunk, damping)) in self
             .chunks
@@ -91,22 +101,19 @@ where
             let first = number * CHUNK;
             damping.fill(0.0);
             for (slot, j) in chunk.list.iter() {
-                let (pair, touch) = touch_of::<D, S, K, L>(
-                    &self.lines,
-                    &self.pairs,
-                    self.kinds.all().len(),
-                    &self.domain,
-                    first + slot,
-                    j,
-                );
+                let (pair, touch) = pairs.touch::<S, K>(first + slot, j);
                 damping[slot] += strongest(&L::linear(pair, &touch, self.dt));
             }
-            wall_damping::<D, S, K, W>(
-                &walls,
-                &self.lines[first..first + damping.len()],
-                chunk,
-                damping,
+            let own = Own::of_chunk::<D, S>(
+                number,
+                damping.len(),
+                &self.lines,
+                &self.spins,
+                &self.identity,
             );
+            wall_linear::<D, S, K, W>(&walls, own, chunk, |slot, _, linear| {
+                damping[slot] += strongest(linear);
+            });
         }
     }
 }

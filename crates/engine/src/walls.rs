@@ -1,13 +1,14 @@
 //! Bodies and the wall pass: the same kind of law as between grains, with a `Touch` made from a surface's hit.
 
-use crate::chunk::{Chunk, Load, WallPart};
+use crate::chunk::{CHUNK, Chunk, Load, WallMemory, WallPart};
 use crate::kinds::{KindSet, pick};
-use crate::line::{Layout, Line};
+use crate::line::{Layout, Line, has_second_line};
 use crate::world::Tally;
 use glam::DVec3;
 use std::sync::Arc;
 use tsubu_model::{
-    ContactLaw, Kind, Linear, Motion, Numbers, Pose, Push, SpinState, Surface, Touch, Vector,
+    ContactLaw, Kind, Linear, MOST_NUMBERS, Motion, Numbers, Pose, Push, SpinState, Surface, Touch,
+    Vector,
 };
 
 /// Where a grain touches a surface.
@@ -135,12 +136,55 @@ pub(crate) struct WallJob<'a, D: Layout, S: SpinState, W: ContactLaw<D, S>> {
     /// How far each body may have moved since the grains near it were noted, in m.
     pub moved: &'a [f64],
     pub dt: f64,
+    /// True if the step is taken, so that contacts remember it.
+    pub keep: bool,
+}
+
+/// The grains of a chunk as the wall pass sees them.
+#[derive(Clone, Copy)]
+pub(crate) struct Own<'a> {
+    pub lines: &'a [Line],
+    /// Their spins where a line has no room for it, else empty.
+    pub spins: &'a [Line],
+    pub identity: &'a [u32],
+}
+
+impl<'a> Own<'a> {
+    /// The chunk of this number, which has so many grains.
+    pub fn of_chunk<D: Layout, S: SpinState>(
+        number: usize,
+        grains: usize,
+        lines: &'a [Line],
+        spins: &'a [Line],
+        identity: &'a [u32],
+    ) -> Self {
+        let own = number * CHUNK..number * CHUNK + grains;
+        Self {
+            lines: &lines[own.clone()],
+            spins: if const { has_second_line::<D, S>() } {
+                &spins[own.clone()]
+            } else {
+                &[]
+            },
+            identity: &identity[own],
+        }
+    }
+
+    fn spin<D: Layout, S: SpinState>(&self, slot: usize) -> S::Turn<D> {
+        if const { has_second_line::<D, S>() } {
+            self.spins[slot].spin::<D, S>()
+        } else {
+            self.lines[slot].spin::<D, S>()
+        }
+    }
 }
 
 /// One contact of a grain with a body, in the world's frame.
 struct Contact<'p, D: Layout, S: SpinState, P> {
     body: usize,
     slot: usize,
+    feature: u32,
+    radius: f64,
     touch: Touch<D, S>,
     pair: &'p P,
     /// Velocity of the wall at the contact.
@@ -152,7 +196,7 @@ struct Contact<'p, D: Layout, S: SpinState, P> {
 /// Calls `each` for every contact of the chunk's grains with bodies.
 fn contacts<D, S, K, W>(
     job: &WallJob<'_, D, S, W>,
-    lines: &[Line],
+    own: Own<'_>,
     chunk: &mut Chunk<D>,
     mut each: impl FnMut(&mut Chunk<D>, Contact<'_, D, S, W::Pair>),
 ) where
@@ -161,6 +205,7 @@ fn contacts<D, S, K, W>(
     K: KindSet,
     W: ContactLaw<D, S>,
 {
+    let lines = own.lines;
     let mut from = 0;
     while from < chunk.near.len() {
         let number = chunk.near[from].body as usize;
@@ -220,13 +265,15 @@ fn contacts<D, S, K, W>(
                     velocity: line.velocity::<D>() - motion,
                     r2: s * s,
                     reach: line.0[D::RADIUS] + wall.partner,
-                    spin: Default::default(),
+                    spin: own.spin::<D, S>(slot) * line.0[D::RADIUS],
                 };
                 each(
                     chunk,
                     Contact {
                         body: number,
                         slot,
+                        feature: hit.feature,
+                        radius: line.0[D::RADIUS],
                         touch,
                         pair: &wall.pair,
                         wall: motion,
@@ -254,12 +301,39 @@ fn put_to_sleep<D: Layout>(chunk: &mut Chunk<D>, surface: &dyn Surface<D>, gone:
     }
 }
 
-/// Forces of the bodies on the chunk's grains, added to `force`; the reactions go to the chunk.
+/// What contacts with bodies remember, found again: they come in the same order as in the step before, but for
+/// those that begin or end.
+struct Recall {
+    next: usize,
+}
+
+impl Recall {
+    fn find<M: Numbers>(&mut self, all: &[WallMemory], grain: u32, body: usize, feature: u32) -> M {
+        let mut memory = M::zero();
+        let key = (grain, body as u32, feature);
+        let is_it = |entry: &WallMemory| (entry.grain, entry.body, entry.feature) == key;
+        let (behind, ahead) = all.split_at(self.next.min(all.len()));
+        let found = match ahead.iter().position(is_it) {
+            Some(k) => Some(self.next + k),
+            None => behind.iter().position(is_it),
+        };
+        if let Some(at) = found {
+            for m in 0..M::N {
+                memory.set(m, all[at].numbers[m]);
+            }
+            self.next = at + 1;
+        }
+        memory
+    }
+}
+
+/// Forces of the bodies on the chunk's grains, added to `force`, and their torques; the reactions go to the chunk.
 pub(crate) fn wall_forces<D, S, K, W, T>(
     job: &WallJob<'_, D, S, W>,
-    lines: &[Line],
+    own: Own<'_>,
     chunk: &mut Chunk<D>,
     force: &mut [D::V],
+    torque: &mut [S::Turn<D>],
 ) where
     D: Layout,
     S: SpinState,
@@ -269,10 +343,36 @@ pub(crate) fn wall_forces<D, S, K, W, T>(
 {
     chunk.wall_parts.clear();
     chunk.on_bodies.fill(Load::default());
-    contacts::<D, S, K, W>(job, lines, chunk, |chunk, at| {
-        let push: Push<D, S> = W::force(at.pair, &at.touch, &mut W::Memory::zero(), job.dt);
+    chunk.wall_memory[1].clear();
+    let mut recall = Recall { next: 0 };
+    contacts::<D, S, K, W>(job, own, chunk, |chunk, at| {
+        let mut memory = W::Memory::zero();
+        if const { <W::Memory as Numbers>::N > 0 } {
+            memory = recall.find(
+                &chunk.wall_memory[0],
+                own.identity[at.slot],
+                at.body,
+                at.feature,
+            );
+        }
+        let push: Push<D, S> = W::force(at.pair, &at.touch, &mut memory, job.dt);
+        if const { <W::Memory as Numbers>::N > 0 } {
+            let mut numbers = [0.0; MOST_NUMBERS];
+            for (m, number) in numbers.iter_mut().enumerate().take(W::Memory::N) {
+                *number = memory.get(m);
+            }
+            if numbers.iter().any(|&number| number != 0.0) {
+                chunk.wall_memory[1].push(WallMemory {
+                    grain: own.identity[at.slot],
+                    body: at.body as u32,
+                    feature: at.feature,
+                    numbers,
+                });
+            }
+        }
         let total = push.total();
         force[at.slot] += total;
+        torque[at.slot] += push.twist * at.radius;
         let load = &mut chunk.on_bodies[at.body];
         load.force += -total;
         load.torque -= at.arm.cross(D::to_space(total));
@@ -286,29 +386,33 @@ pub(crate) fn wall_forces<D, S, K, W, T>(
             });
         }
     });
+    if job.keep {
+        chunk.wall_memory.swap(0, 1);
+    }
 }
 
-/// Adds each grain's wall damping to `damping`, for the solve.
-pub(crate) fn wall_damping<D, S, K, W>(
+/// Calls `each` with the slot, the normal and the linearised law of every contact with a body.
+pub(crate) fn wall_linear<D, S, K, W>(
     job: &WallJob<'_, D, S, W>,
-    lines: &[Line],
+    own: Own<'_>,
     chunk: &mut Chunk<D>,
-    damping: &mut [f64],
+    mut each: impl FnMut(usize, D::V, &Linear),
 ) where
     D: Layout,
     S: SpinState,
     K: KindSet,
     W: ContactLaw<D, S>,
 {
-    contacts::<D, S, K, W>(job, lines, chunk, |_, at| {
-        damping[at.slot] += strongest(&W::linear(at.pair, &at.touch, job.dt));
+    contacts::<D, S, K, W>(job, own, chunk, |_, at| {
+        let linear = W::linear(at.pair, &at.touch, job.dt);
+        each(at.slot, at.touch.normal(), &linear);
     });
 }
 
 /// Elastic energy of the chunk's grains against each body, added to `stored`.
 pub(crate) fn wall_energy<D, S, K, W>(
     job: &WallJob<'_, D, S, W>,
-    lines: &[Line],
+    own: Own<'_>,
     chunk: &mut Chunk<D>,
     stored: &mut [f64],
 ) where
@@ -317,8 +421,11 @@ pub(crate) fn wall_energy<D, S, K, W>(
     K: KindSet,
     W: ContactLaw<D, S>,
 {
-    contacts::<D, S, K, W>(job, lines, chunk, |_, at| {
-        stored[at.body] += W::stored(at.pair, &at.touch, &W::Memory::zero());
+    let mut recall = Recall { next: 0 };
+    contacts::<D, S, K, W>(job, own, chunk, |chunk, at| {
+        let grain = own.identity[at.slot];
+        let memory = recall.find(&chunk.wall_memory[0], grain, at.body, at.feature);
+        stored[at.body] += W::stored(at.pair, &at.touch, &memory);
     });
 }
 

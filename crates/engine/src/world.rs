@@ -1,20 +1,18 @@
 //! The world: grains, lists and bodies of one scene, and one step of time.
 
-use crate::chunk::{CHUNK, Chunk};
+use crate::chunk::{CHUNK, Chunk, WallMemory};
 use crate::health::Health;
 use crate::kick::Kick;
 use crate::kinds::KindSet;
-use crate::lanes::{self, Lanes};
-use crate::line::{Layout, Line};
-use crate::pass::Job;
-use crate::walls::{Body, WallJob, WallPair, wall_energy, wall_forces};
+use crate::lanes::Lanes;
+use crate::line::{Layout, Line, has_second_line};
+use crate::walls::{Body, Own, WallJob, WallPair, wall_energy};
 use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::sync::Arc;
 use tsubu_integrate::{Drift, Scheme};
-use tsubu_model::{
-    ContactLaw, Dim, Domain, Kind, Numbers, Passage, Pose, SpinState, Touch, Vector,
-};
+use tsubu_model::{ContactLaw, Dim, Domain, Kind, Load, Passage, Pose, SpinState, Vector};
+use tsubu_neighbors::Kept;
 
 /// Whether the work of damping and friction is summed, as a type: a run that does not ask does not pay.
 pub trait Tally: Send + Sync + 'static {
@@ -91,19 +89,22 @@ pub struct World<
     pub(crate) wall_pairs: Vec<Vec<WallPair<W::Pair>>>,
     pub(crate) domain: Domain<D>,
     pub(crate) gravity: D::V,
-    weights: Vec<D::V>,
+    pub(crate) weights: Vec<D::V>,
     pub(crate) scheme: Scheme,
     pub(crate) dt: f64,
-    lanes: Lanes,
-    pool: Option<Arc<rayon::ThreadPool>>,
+    pub(crate) lanes: Lanes,
+    pub(crate) pool: Option<Arc<rayon::ThreadPool>>,
 
     /// Grains in sorted order, then the dummy.
     pub(crate) lines: Vec<Line>,
+    /// Spins in the same order, where a line has no room for them; else empty.
+    pub(crate) spins: Vec<Line>,
     pub(crate) identity: Vec<u32>,
     /// Positions at the last list build.
     pub(crate) home: Vec<D::V>,
     pub(crate) force: Vec<D::V>,
     pub(crate) viscous: Vec<D::V>,
+    pub(crate) torque: Vec<S::Turn<D>>,
     pub(crate) base: Vec<D::V>,
     pub(crate) damping: Vec<f64>,
     pub(crate) chunks: Vec<Chunk<D>>,
@@ -113,6 +114,15 @@ pub struct World<
     pub(crate) body_moved: Vec<f64>,
     pub(crate) passages: Vec<Passage>,
     pub(crate) next_identity: u32,
+    pub(crate) loads: Vec<Box<dyn Load<D, S>>>,
+    /// What contacts remember while lists are built anew, by the former chunks.
+    pub(crate) kept: Vec<Kept>,
+    /// Where each grain was when that was taken; `u32::MAX` for one that came or moved since.
+    pub(crate) origin: Vec<u32>,
+    /// True while the two above are in use.
+    pub(crate) memory_is_taken: bool,
+    /// What contacts with bodies remember meanwhile, by grain.
+    pub(crate) wall_kept: Vec<WallMemory>,
 
     pub(crate) range: f64,
     pub(crate) skin: f64,
@@ -177,6 +187,11 @@ where
             )
         }));
         lines.push(Line::dummy::<D>());
+        let spins = if const { has_second_line::<D, S>() } {
+            vec![Line([0.0; 8]); n + 1]
+        } else {
+            Vec::new()
+        };
         let solves = if scheme.sweeps() > 0 { n } else { 0 };
         let mut world = Self {
             pairs,
@@ -189,6 +204,11 @@ where
             body_moved: vec![0.0; bodies.len()],
             passages: gates.into_iter().map(Passage::of).collect(),
             next_identity: n as u32,
+            loads: Vec::new(),
+            kept: Vec::new(),
+            origin: Vec::new(),
+            memory_is_taken: false,
+            wall_kept: Vec::new(),
             bodies,
             domain,
             gravity,
@@ -197,10 +217,12 @@ where
             lanes,
             pool,
             lines,
+            spins,
             identity: (0..n as u32).collect(),
             home: vec![D::V::ZERO; n],
             force: vec![D::V::ZERO; n],
             viscous: vec![D::V::ZERO; if T::ON { n } else { 0 }],
+            torque: vec![S::Turn::<D>::ZERO; n],
             base: vec![D::V::ZERO; solves],
             damping: vec![0.0; solves],
             range,
@@ -221,7 +243,7 @@ where
         };
         world.in_pool(|world| {
             world.build_lists();
-            world.forces();
+            world.forces(false);
         });
         world
     }
@@ -257,7 +279,8 @@ where
             self.drifted = true;
             self.keep_lists_valid();
         }
-        self.forces();
+        // A solve looks at the forces several times and keeps what the last look remembers.
+        self.forces(scheme.sweeps() <= 1);
         let later = (drift != Drift::BeforeForces).then_some(drift);
         if scheme.sweeps() > 0 {
             self.solve(h, scheme.sweeps(), later);
@@ -270,69 +293,6 @@ where
         }
         self.drifted = false;
         self.steps += 1;
-    }
-
-    /// Contact forces, walls and weight at the present positions and velocities.
-    pub(crate) fn forces(&mut self) {
-        let t = self.time_of_positions();
-        for (pose, body) in self.poses.iter_mut().zip(&self.bodies) {
-            if body.is_moved() {
-                *pose = body.pose(t);
-            }
-        }
-        let (lines, pairs, weights) = (&self.lines, &self.pairs, &self.weights);
-        let (domain, dt, path, kinds) = (self.domain, self.dt, self.lanes, self.kinds.all().len());
-        let walls = WallJob::<D, S, W> {
-            bodies: &self.bodies,
-            pairs: &self.wall_pairs,
-            poses: &self.poses,
-            moved: &self.body_moved,
-            dt,
-        };
-        let work = |number: usize,
-                    chunk: &mut Chunk<D>,
-                    force: &mut [D::V],
-                    viscous: &mut [D::V]| {
-            let first = number * CHUNK;
-            let job = Job::<D, S, K, L, T> {
-                lines,
-                list: &chunk.list,
-                first,
-                pairs,
-                kinds,
-                weights,
-                domain,
-                dt,
-                types: PhantomData,
-            };
-            lanes::run(path, &job, force, viscous);
-            wall_forces::<D, S, K, W, T>(&walls, &lines[first..first + force.len()], chunk, force);
-        };
-        // An untallied run has no viscous array; an empty slice stands in for each chunk.
-        if self.pool.is_some() {
-            let chunks = self
-                .chunks
-                .par_iter_mut()
-                .zip(self.force.par_chunks_mut(CHUNK))
-                .enumerate();
-            if T::ON {
-                chunks
-                    .zip(self.viscous.par_chunks_mut(CHUNK))
-                    .for_each(|((n, (c, f)), v)| work(n, c, f, v));
-            } else {
-                chunks.for_each(|(n, (c, f))| work(n, c, f, &mut []));
-            }
-        } else {
-            let mut viscous = self.viscous.chunks_mut(CHUNK);
-            for (n, (c, f)) in self
-                .chunks
-                .iter_mut()
-                .zip(self.force.chunks_mut(CHUNK))
-                .enumerate()
-            {
-                work(n, c, f, viscous.next().unwrap_or(&mut []));
-            }
-        }
     }
 
     /// Square of half a range per step: no grain of a sound run is that fast.
@@ -378,6 +338,7 @@ where
                 work(n, c, l, f);
             }
         }
+        self.kick_spins(h);
     }
 
     /// Elastic energy of the grains against each body.
@@ -388,13 +349,18 @@ where
             poses: &self.poses,
             moved: &self.body_moved,
             dt: self.dt,
+            keep: false,
         };
         let mut stored = vec![0.0; self.bodies.len()];
-        for (number, lines) in self.lines[..self.identity.len()].chunks(CHUNK).enumerate() {
+        for (number, chunk) in self.chunks.iter().enumerate() {
             let mut scratch = Chunk::new(self.bodies.len());
-            scratch.near.clone_from(&self.chunks[number].near);
-            scratch.moved = self.chunks[number].moved;
-            wall_energy::<D, S, K, W>(&walls, lines, &mut scratch, &mut stored);
+            scratch.near.clone_from(&chunk.near);
+            scratch.wall_memory[0].clone_from(&chunk.wall_memory[0]);
+            scratch.moved = chunk.moved;
+            let grains = CHUNK.min(self.identity.len() - number * CHUNK);
+            let own =
+                Own::of_chunk::<D, S>(number, grains, &self.lines, &self.spins, &self.identity);
+            wall_energy::<D, S, K, W>(&walls, own, &mut scratch, &mut stored);
         }
         stored
     }
@@ -410,7 +376,7 @@ where
         }
         self.taken_by_removal += self.stored_in_walls()[number];
         self.bodies[number].removed_at = Some(self.now());
-        self.in_pool(Self::forces);
+        self.look_at_forces();
     }
 
     /// A body that waits for it begins its motion now.
@@ -419,7 +385,7 @@ where
         if let Some(body) = self.bodies.get_mut(number).filter(|b| b.waits) {
             body.motion = body.motion.delayed(now);
             body.waits = false;
-            self.in_pool(Self::forces);
+            self.look_at_forces();
         }
     }
 
@@ -430,7 +396,7 @@ where
             .iter()
             .flat_map(|a| all.iter().map(|b| law.pair(a, b)))
             .collect();
-        self.in_pool(Self::forces);
+        self.look_at_forces();
     }
 
     /// The time to which the positions belong: a step ahead of the clock from a drift to the end of its step.
@@ -505,7 +471,11 @@ where
             + self.force.capacity()
             + self.viscous.capacity()
             + self.base.capacity();
-        let total = self.lines.capacity() * size_of::<Line>()
+        let kept: usize = self.kept.iter().map(Kept::bytes).sum();
+        let total = (self.lines.capacity() + self.spins.capacity()) * size_of::<Line>()
+            + self.torque.capacity().min(self.identity.len()) * size_of::<S::Turn<D>>()
+            + kept
+            + self.origin.capacity() * 4
             + vectors * size_of::<D::V>()
             + self.damping.capacity() * 8
             + self.identity.capacity() * 4
@@ -528,37 +498,4 @@ where
     pub(crate) fn kind_of(&self, i: usize) -> &Kind {
         crate::kinds::pick::<K, _>(self.kinds.all(), self.lines[i].kind::<D>())
     }
-}
-
-/// The contact of grains `i` and `j` and the constants of their pair.
-pub(crate) fn touch_of<'p, D, S, K, L>(
-    lines: &[Line],
-    pairs: &'p [L::Pair],
-    kinds: usize,
-    domain: &Domain<D>,
-    i: usize,
-    j: usize,
-) -> (&'p L::Pair, Touch<D, S>)
-where
-    D: Layout,
-    S: SpinState,
-    K: KindSet,
-    L: ContactLaw<D, S>,
-{
-    let (a, b) = (&lines[i], &lines[j]);
-    let apart = domain.nearest(a.position::<D>() - b.position::<D>());
-    let touch = Touch {
-        apart,
-        velocity: a.velocity::<D>() - b.velocity::<D>(),
-        r2: apart.length_squared(),
-        reach: a.0[D::RADIUS] + b.0[D::RADIUS],
-        spin: Default::default(),
-    };
-    let pair = if K::INDEXED {
-        &pairs[a.kind::<D>() * kinds + b.kind::<D>()]
-    } else {
-        &pairs[0]
-    };
-    debug_assert!(<L::Memory as Numbers>::N == 0);
-    (pair, touch)
 }

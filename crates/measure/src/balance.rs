@@ -1,13 +1,18 @@
 //! Momentum of the grains and the force they exert on all bodies.
 
+use crate::conveying::over;
+use crate::free::free;
 use tsubu_model::{Dim, Observer, Reading, SpinState, Vector, View};
 
 /// Forces and momentum as a whole.
 ///
-/// Rows: `momentum_x`, `momentum_z` (kg m/s) of all grains; `force_on_bodies_x`, `force_on_bodies_z` (N), the sum over the
+/// Rows: `momentum_x`, `momentum_z` (kg m/s) of the grains; `force_on_bodies_x`, `force_on_bodies_z` (N), the sum over the
 /// bodies that stand; `support` = (force on bodies along gravity)/(weight of the grains), which is 1 for grains
-/// at rest and on average over any time between two states of rest; NaN without gravity or grains.
-/// Grains of infinite mass take no part; where they carry grains, `support` is below 1.
+/// at rest and on average over any time between two states of rest; NaN without gravity or weight.
+///
+/// Grains that no force moves (infinite mass: a fixed row, driven grains) have neither momentum nor weight here. They are no bodies either:
+/// what lies on them is not in `support`, which is then the share that the bodies carry, 0 for a bed on a fixed row.
+/// Not told apart: the force of such a grain that itself presses into a body is in the force on that body.
 ///
 /// Two grains of weight 3 N on a floor that feels 6 N: `support` = 1.
 #[derive(Clone, Debug, Default)]
@@ -27,7 +32,7 @@ impl<D: Dim, S: SpinState> Observer<D, S> for Balance {
         let mut momentum = D::V::ZERO;
         let mut weight = 0.0;
         let gravity = view.gravity();
-        for i in (0..view.len()).filter(|&i| view.kind(i).mass.is_finite()) {
+        for i in free(view) {
             momentum += view.velocity(i) * view.kind(i).mass;
             weight += view.kind(i).weight * gravity.length();
         }
@@ -36,7 +41,7 @@ impl<D: Dim, S: SpinState> Observer<D, S> for Balance {
             .iter()
             .filter(|body| body.removed_at.is_none())
             .fold(D::V::ZERO, |sum, body| sum + body.force);
-        let support = force.dot(gravity) / (gravity.length() * weight);
+        let support = over(force.dot(gravity), gravity.length() * weight);
         self.support = Some(support);
         let (momentum, force) = (D::to_space(momentum), D::to_space(force));
         vec![

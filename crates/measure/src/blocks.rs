@@ -3,7 +3,7 @@
 use crate::Line;
 
 /// Blocks that must be left, so that their scatter is worth something: with 8 an error is known to 27 %.
-const FEWEST: usize = 8;
+pub(crate) const FEWEST: usize = 8;
 /// Looks in a cell of a long series, and the number of looks from which a series is long.
 const CELL: usize = 5;
 const LONG: usize = 50;

@@ -5,6 +5,7 @@ use crate::screw::{annulus, mass_rate, volume_per_turn};
 use crate::section::Load;
 use crate::slope::Measured;
 use crate::{Blocked, Conveying, Steady};
+use std::borrow::Cow;
 use tsubu_model::{Curve, Reading};
 
 impl Conveying {
@@ -202,14 +203,15 @@ impl Part<'_> {
     }
 }
 
-fn measured(mean: Option<Blocked>) -> Measured {
+/// A mean as a measured value; NaN if there is none.
+pub(crate) fn measured(mean: Option<Blocked>) -> Measured {
     Measured {
         value: mean.map_or(f64::NAN, |mean| mean.mean),
         uncertainty: mean.and_then(|mean| mean.uncertainty),
     }
 }
 
-fn times(a: Measured, factor: f64) -> Measured {
+pub(crate) fn times(a: Measured, factor: f64) -> Measured {
     Measured {
         value: a.value * factor,
         uncertainty: a.uncertainty.map(|error| (error * factor).abs()),
@@ -231,7 +233,11 @@ fn quotient(a: Measured, b: Measured) -> Measured {
 }
 
 /// A reading with its uncertainty, if known and there is a value.
-fn reading(name: &'static str, measured: Measured, unit: &'static str) -> Reading {
+pub(crate) fn reading(
+    name: impl Into<Cow<'static, str>>,
+    measured: Measured,
+    unit: &'static str,
+) -> Reading {
     Reading {
         name: name.into(),
         value: measured.value,

@@ -1,6 +1,7 @@
 //! Which grains make up the deposit, and how densely they lie inside it.
 
 use crate::Slices;
+use crate::free::free;
 use std::collections::BTreeMap;
 use tsubu_model::{SpinState, View};
 
@@ -57,9 +58,7 @@ impl Deposit {
     /// Looks at the grains of a view. `depth` is the period along y in m, or `None` for a walled or
     /// open scene: then the extent of the deposit's grains is used. The plane ignores it.
     pub fn of<D: Slices, S: SpinState>(view: &dyn View<D, S>, depth: Option<f64>) -> Self {
-        let moving: Vec<usize> = (0..view.len())
-            .filter(|&i| view.kind(i).mass.is_finite())
-            .collect();
+        let moving: Vec<usize> = free(view).collect();
         let size = 4.0
             * moving
                 .iter()
@@ -146,7 +145,7 @@ impl Deposit {
             x += kind.mass * place.x;
             z += kind.mass * place.z;
         }
-        self.depth = D::across(depth, low, high);
+        self.depth = <D as Slices>::across(depth, low, high);
         (self.centre_x, self.centre_z) = (x / mass, z / mass);
     }
 }

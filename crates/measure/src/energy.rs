@@ -12,7 +12,8 @@ use tsubu_model::{Dim, Energies, Observer, Reading, SpinState, View};
 /// strained at the first look and the largest fall of gravitational energy since.
 /// The denominator is never taken under 1e-6 of the largest entry seen, so that rounding is not divided by
 /// nothing where nothing has moved; all zero gives 0.
-/// Not for scenes in which moving bodies do work on the grains: that work is in no entry.
+/// Not for scenes in which moving bodies or driven grains do work on the grains: that work is in no entry.
+/// Grains that no force moves (infinite mass) have no kinetic energy in the books that the view keeps.
 ///
 /// A ball dropped by 1 m that has lost 0.1 % of its energy to nowhere has an error of 0.001.
 #[derive(Clone, Debug, Default)]

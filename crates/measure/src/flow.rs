@@ -5,8 +5,8 @@ use tsubu_model::{Dim, Observer, Reading, SpinState, View};
 
 /// The numbers of grains.
 ///
-/// Rows: `grains` (1), and for a gate named `outlet`: `came_through_outlet`, `went_through_outlet`,
-/// `moved_through_outlet` (1, counted since the start; a grain that is moved has gone and come in one)
+/// Rows: `grains` (1; fixed ones are grains too), and for a gate named `outlet`: `came_through_outlet`,
+/// `went_through_outlet`, `moved_through_outlet` (1, counted since the start; a grain that is moved has gone and come in one)
 /// and `mass_through_outlet` (kg, of those that went or were moved).
 /// Report: the last of these, and `grains_missing` (1) = grains at the first look + came − went − grains now,
 /// which is zero if none was lost without a word.

@@ -3,7 +3,11 @@
 //! Read in this order: [`Deposit`] (which grains count, and how densely they lie), [`Profile`] (the
 //! height of a deposit along x), [`slope`] (crest, front, two angles of repose), and the observers
 //! [`Heap`], [`Energy`], [`Structure`], [`Balance`]. For conveying: [`Blocked`] and [`Steady`] (the mean of a
-//! correlated series and where it becomes steady), [`screw`] (the theory), [`Conveying`]. Nothing here changes a simulation.
+//! correlated series and where it becomes steady), [`screw`] (the theory), [`Conveying`]. For a bed
+//! under water: [`BedLoad`]. Nothing here changes a simulation.
+//!
+//! Grains that no force moves (infinite mass: a fixed row, driven grains) are in no sum of mass, momentum, weight or
+//! energy, and no part of a deposit.
 //!
 //! Lengths in m, angles in degrees, uncertainties one standard deviation. The x axis is level, z is up.
 //!
@@ -18,6 +22,8 @@
 //! ```
 
 mod balance;
+mod bed_carried;
+mod bed_load;
 mod blocks;
 mod conveyed;
 mod conveying;
@@ -25,6 +31,7 @@ mod deposit;
 mod energy;
 mod fit;
 mod flow;
+mod free;
 mod heap;
 mod loads;
 mod profile;
@@ -35,6 +42,7 @@ pub mod slope;
 mod structure;
 
 pub use balance::Balance;
+pub use bed_load::{BedLoad, BedLoadOptions};
 pub use blocks::{Blocked, Steady};
 pub use conveying::{Conveying, ConveyingOptions};
 pub use deposit::Deposit;

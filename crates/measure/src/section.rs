@@ -1,6 +1,7 @@
 //! What lies between a screw and its casing at one moment, and how densely grains lie in the hopper above.
 
 use crate::Slices;
+use crate::free::free;
 use glam::DVec3;
 use tsubu_model::{Dim, Kind, Space, SpinState, View};
 
@@ -104,7 +105,7 @@ pub(crate) fn loads<D: Dim, S: SpinState>(
 ) -> (Load, Vec<Load>) {
     let mut whole = Load::default();
     let mut parts = vec![Load::default(); bins.count];
-    for i in (0..view.len()).filter(|&i| view.kind(i).mass.is_finite()) {
+    for i in free(view) {
         let (along, arm) = axis.locate(D::to_space(view.position(i)));
         if arm.length_squared() > axis.reach * axis.reach {
             continue;
@@ -135,9 +136,9 @@ pub(crate) fn loads<D: Dim, S: SpinState>(
 pub(crate) fn bulk_density<D: Dim, S: SpinState>(view: &dyn View<D, S>, hopper: [DVec3; 2]) -> f64 {
     let (low, high) = (hopper[0].min(hopper[1]), hopper[0].max(hopper[1]));
     let within = |x: DVec3, low: DVec3, high: DVec3| x.cmpge(low).all() && x.cmplt(high).all();
-    let grains: Vec<(DVec3, &Kind)> = (0..view.len())
+    let grains: Vec<(DVec3, &Kind)> = free(view)
         .map(|i| (D::to_space(view.position(i)), view.kind(i)))
-        .filter(|(x, kind)| kind.mass.is_finite() && kind.radius > 0.0 && within(*x, low, high))
+        .filter(|(x, kind)| kind.radius > 0.0 && within(*x, low, high))
         .collect();
     let diameter = grains
         .iter()

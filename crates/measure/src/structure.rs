@@ -1,5 +1,6 @@
 //! The structure of a packing: contacts, solid fraction, overlaps.
 
+use crate::free::is_free;
 use crate::{Deposit, Slices};
 use tsubu_model::{Observer, Reading, SpinState, View};
 
@@ -15,6 +16,9 @@ use tsubu_model::{Observer, Reading, SpinState, View};
 /// * `packing_fraction`: [`Deposit::bulk_fraction`], with its uncertainty where it is known.
 /// * `overlap_max`, `overlap_mean`: overlap δ over the sum of radii of the pair, largest and mean over
 ///   all touching pairs; 0 without contact.
+///
+/// Of grains that no force moves (infinite mass) none is asked for its contacts. A contact with one of them counts for the
+/// other grain and among the overlaps; one between two of them counts nowhere.
 #[derive(Clone, Debug, Default)]
 pub struct Structure {
     depth: Option<f64>,
@@ -38,6 +42,10 @@ impl<D: Slices, S: SpinState> Observer<D, S> for Structure {
         view.touching(&mut |pair| {
             contacts[pair.i] += 1;
             contacts[pair.j] += 1;
+            // Fixed grains may overlap as they like: nothing is pressed together there.
+            if !is_free(view.kind(pair.i)) && !is_free(view.kind(pair.j)) {
+                return;
+            }
             let share = pair.overlap / (view.kind(pair.i).radius + view.kind(pair.j).radius);
             pairs += 1;
             sum += share;

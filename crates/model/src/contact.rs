@@ -41,8 +41,9 @@ pub struct Push<D: Dim, S: SpinState> {
     pub viscous: D::V,
     /// Coulomb part in N.
     pub slip: D::V,
-    /// Torque in N m.
-    pub torque: S::Turn<D>,
+    /// Torque about this grain's centre over its radius, in N: a tangential force f at the contact gives −n × f, the
+    /// same for both grains. The engine multiplies by the radius of each.
+    pub twist: S::Turn<D>,
 }
 
 impl<D: Dim, S: SpinState> Push<D, S> {
@@ -52,7 +53,7 @@ impl<D: Dim, S: SpinState> Push<D, S> {
             elastic: D::V::ZERO,
             viscous: D::V::ZERO,
             slip: D::V::ZERO,
-            torque: Default::default(),
+            twist: Default::default(),
         }
     }
 
@@ -78,7 +79,8 @@ pub struct Linear {
 
 /// A contact law, for grains against grains and against walls alike.
 ///
-/// `force` is a pure, branch-free function: the engine runs it over eight contacts at once.
+/// `force` is a pure, branch-free function: the engine runs it over eight contacts at once. What it remembers it
+/// advances by the step; both grains of a contact have their own copy, all zero while they do not touch.
 /// It must return exactly zero at and beyond [`range`](ContactLaw::range) (a far-away dummy fills
 /// short lists) and must be odd *to the bit* when the two grains are exchanged, because each side
 /// computes the contact for itself. `tsubu_contact::testing` checks both and more.

@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-/// What the formulas need of a vector. Implemented for glam's `DVec2` and `DVec3`.
+/// What the formulas need of a vector. Implemented for glam's `DVec2` and `DVec3`, for one number and for
+/// [`Nothing`](crate::Nothing), the spin of a grain without one.
 pub trait Vector:
     Copy
     + Debug
@@ -83,21 +84,51 @@ impl Vector for DVec3 {
     }
 }
 
+impl Vector for f64 {
+    const AXES: usize = 1;
+    const ZERO: Self = 0.0;
+    #[inline(always)]
+    fn axis(self, _axis: usize) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn from_axes(mut coordinate: impl FnMut(usize) -> f64) -> Self {
+        coordinate(0)
+    }
+    #[inline(always)]
+    fn dot(self, other: Self) -> f64 {
+        self * other
+    }
+    #[inline(always)]
+    fn length(self) -> f64 {
+        self.abs()
+    }
+}
+
 /// The dimension of a scene, as a type.
 pub trait Dim: Copy + Debug + Default + Send + Sync + 'static {
     /// Positions, velocities, forces.
     type V: Vector;
-    /// Angular velocity and torque: one number in the plane, a vector in space.
-    type W: Copy + Debug + Default + Send + Sync + 'static;
+    /// Axial quantities such as angular velocity and torque: one number in the plane, a vector in space.
+    type W: Vector;
     /// The axis that points up.
     const UP: usize;
     /// The three-dimensional place of a point: a plane scene lies in x–z at y = 0.
     fn to_space(v: Self::V) -> DVec3;
     /// The part of a three-dimensional vector that this dimension knows.
     fn from_space(v: DVec3) -> Self::V;
+    /// w × arm: the velocity of the end of an arm that turns with w.
+    fn turned(w: Self::W, arm: Self::V) -> Self::V;
+    /// arm × force: the torque of a force at the end of an arm.
+    fn moment(arm: Self::V, force: Self::V) -> Self::W;
+    /// What is left of w without its part along the unit vector n, about which nothing rolls: in the plane all of it.
+    fn across(w: Self::W, n: Self::V) -> Self::W;
+    /// The three-dimensional axial vector of w.
+    fn spin_to_space(w: Self::W) -> DVec3;
 }
 
-/// A vertical plane: coordinates x (level) and z (up), spheres one grain deep.
+/// A vertical plane: coordinates x (level) and z (up), spheres one grain deep. Spin is positive from x to z: counter-clockwise
+/// in a picture with x to the right and z up, and so about −y.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Plane;
 
@@ -115,6 +146,21 @@ impl Dim for Plane {
     fn from_space(v: DVec3) -> DVec2 {
         DVec2::new(v.x, v.z)
     }
+    #[inline(always)]
+    fn turned(w: f64, arm: DVec2) -> DVec2 {
+        DVec2::new(-w * arm.y, w * arm.x)
+    }
+    #[inline(always)]
+    fn moment(arm: DVec2, force: DVec2) -> f64 {
+        arm.x * force.y - arm.y * force.x
+    }
+    #[inline(always)]
+    fn across(w: f64, _n: DVec2) -> f64 {
+        w
+    }
+    fn spin_to_space(w: f64) -> DVec3 {
+        DVec3::new(0.0, -w, 0.0)
+    }
 }
 
 impl Dim for Space {
@@ -126,6 +172,21 @@ impl Dim for Space {
     }
     fn from_space(v: DVec3) -> DVec3 {
         v
+    }
+    #[inline(always)]
+    fn turned(w: DVec3, arm: DVec3) -> DVec3 {
+        w.cross(arm)
+    }
+    #[inline(always)]
+    fn moment(arm: DVec3, force: DVec3) -> DVec3 {
+        arm.cross(force)
+    }
+    #[inline(always)]
+    fn across(w: DVec3, n: DVec3) -> DVec3 {
+        w - n * Vector::dot(w, n)
+    }
+    fn spin_to_space(w: DVec3) -> DVec3 {
+        w
     }
 }
 
@@ -191,6 +252,20 @@ mod tests {
             let d = domain.nearest(p - q);
             prop_assert!(d.x.abs() <= 0.5 * l * (1.0 + 1e-12));
             prop_assert_eq!(domain.nearest(q - p), -d);
+        }
+
+        #[test]
+        fn the_plane_turns_as_space_does(w in -9.0..9.0f64, a in -9.0..9.0f64, b in -9.0..9.0f64, c in -9.0..9.0f64, e in -9.0..9.0f64) {
+            let (arm, force) = (DVec2::new(a, b), DVec2::new(c, e));
+            let spin = Plane::spin_to_space(w);
+            prop_assert_eq!(Plane::to_space(Plane::turned(w, arm)), Space::turned(spin, Plane::to_space(arm)));
+            let torque = Space::moment(Plane::to_space(arm), Plane::to_space(force));
+            prop_assert_eq!(Plane::spin_to_space(Plane::moment(arm, force)).y, torque.y);
+            // A vector across n: n × (w × n) gives it back.
+            let n = DVec3::new(a, b, c).normalize_or(DVec3::X);
+            let across = Space::across(DVec3::new(w, e, a), n);
+            prop_assert!(Vector::dot(across, n).abs() < 1e-12);
+            prop_assert!((Space::moment(n, Space::turned(across, n)) - across).length() < 1e-12);
         }
     }
 }

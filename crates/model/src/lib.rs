@@ -17,6 +17,7 @@ mod constants;
 mod contact;
 mod dim;
 mod kind;
+mod load;
 mod motion;
 mod numbers;
 mod random;
@@ -28,10 +29,11 @@ pub use constants::{Constants, Quantity};
 pub use contact::{ContactLaw, Linear, Push, Touch};
 pub use dim::{Dim, Domain, Plane, Space, Vector};
 pub use kind::Kind;
+pub use load::{Load, Seen};
 pub use motion::{Course, Motion, Pose, Shift, Span, Turn};
-pub use numbers::Numbers;
+pub use numbers::{MOST_NUMBERS, Numbers};
 pub use random::uniform;
-pub use spin::{Nothing, SpinState, Still};
+pub use spin::{Nothing, SpinState, Spins, Still};
 pub use surface::{Hit, HitBuffer, Shell, Surface};
 pub use view::{
     BodyState, Change, Curve, Energies, Gate, Observer, Passage, Reading, TouchingPair, View,

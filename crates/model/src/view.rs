@@ -119,6 +119,8 @@ pub trait View<D: Dim, S: SpinState> {
     fn position(&self, i: usize) -> D::V;
     /// Velocity of grain `i` in m/s.
     fn velocity(&self, i: usize) -> D::V;
+    /// Angular velocity of grain `i` in rad/s.
+    fn spin(&self, i: usize) -> S::Turn<D>;
     /// Kind of grain `i`.
     fn kind(&self, i: usize) -> &Kind;
     /// Identity of grain `i`: it never changes, whatever the order in memory.

@@ -2,7 +2,8 @@
 //!
 //! A list holds each pair from both sides, padded to blocks of eight with a dummy index, so that the
 //! force loop gathers, never scatters, and gives the same bits for any number of threads.
-//! The lists stay right until some grain has moved by half the skin.
+//! The lists stay right until some grain has moved by half the skin. What contacts remember lies beside a list in the
+//! same blocks and is carried into the next one by the identity of the partner.
 //!
 //! ```
 //! use glam::DVec3;
@@ -20,8 +21,10 @@
 
 mod cells;
 mod list;
+mod memory;
 mod reorder;
 
 pub use cells::CellGrid;
 pub use list::{ChunkList, LANES};
+pub use memory::{ChunkMemory, Kept};
 pub use reorder::Reorder;

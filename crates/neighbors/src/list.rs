@@ -91,16 +91,19 @@ impl ChunkList {
 
     /// Every entry as (slot, partner), without the padding.
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.entries_in_blocks().map(|(_, _, slot, j)| (slot, j))
+    }
+
+    /// Every entry as (block, lane, slot, partner), without the padding.
+    pub fn entries_in_blocks(&self) -> impl Iterator<Item = (usize, usize, usize, usize)> {
         let dummy = self.dummy;
-        self.owners
-            .iter()
-            .zip(&self.blocks)
-            .flat_map(move |(&slot, block)| {
-                block
-                    .iter()
-                    .filter(move |&&j| j != dummy)
-                    .map(move |&j| (slot as usize, j as usize))
-            })
+        let blocks = self.owners.iter().zip(&self.blocks).enumerate();
+        blocks.flat_map(move |(number, (&slot, block))| {
+            let lanes = block.iter().enumerate();
+            lanes
+                .filter(move |&(_, &j)| j != dummy)
+                .map(move |(lane, &j)| (number, lane, slot as usize, j as usize))
+        })
     }
 
     /// Entries without padding.

@@ -1,7 +1,7 @@
 //! Head-on collisions at a fine step: restitution, duration and closest approach as measured.
 
 use super::states::{Case, State, axis};
-use tsubu_model::{ContactLaw, Dim, Kind, Numbers, Still, Vector};
+use tsubu_model::{ContactLaw, Dim, Kind, Numbers, SpinState, Spins, Still, Vector};
 
 /// Speeds in m/s at which [`rebounds_with`] tries a law.
 pub const SPEEDS: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
@@ -38,7 +38,26 @@ pub fn collide<D: Dim, L: ContactLaw<D, Still>>(
     b: &Kind,
     speed: f64,
 ) -> Option<Rebound> {
-    let case = Case::<D, L>::new(law, a, b).ok()?;
+    head_on::<D, Still, L>(law, a, b, speed)
+}
+
+/// As [`collide`], for a law of grains that turn. They do not, head-on.
+pub fn collide_spinning<D: Dim, L: ContactLaw<D, Spins>>(
+    law: &L,
+    a: &Kind,
+    b: &Kind,
+    speed: f64,
+) -> Option<Rebound> {
+    head_on::<D, Spins, L>(law, a, b, speed)
+}
+
+fn head_on<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
+    law: &L,
+    a: &Kind,
+    b: &Kind,
+    speed: f64,
+) -> Option<Rebound> {
+    let case = Case::<D, S, L>::new(law, a, b).ok()?;
     let n = axis::<D::V>(D::UP);
     let dt = std::f64::consts::PI / (rate_at(&case, speed) * STEPS);
     let mut x = n * (case.range * (1.0 - 1e-12));
@@ -46,10 +65,7 @@ pub fn collide<D: Dim, L: ContactLaw<D, Still>>(
     let mut memory = L::Memory::zero();
     let mut closest = case.range;
     for step in 0..50 * STEPS as u64 {
-        let touch = case.at(State {
-            apart: x,
-            velocity: v,
-        });
+        let touch = case.at(State::moving(x, v));
         if touch.r() >= case.range {
             let restitution = v.dot(n) / speed;
             return Some(Rebound {
@@ -66,14 +82,11 @@ pub fn collide<D: Dim, L: ContactLaw<D, Still>>(
 }
 
 /// √(k/m*) at the overlap that this speed reaches, found by trying: overlap = v/ω, ω from there.
-fn rate_at<D: Dim, L: ContactLaw<D, Still>>(case: &Case<D, L>, speed: f64) -> f64 {
+fn rate_at<D: Dim, S: SpinState, L: ContactLaw<D, S>>(case: &Case<D, S, L>, speed: f64) -> f64 {
     (0..8).fold(case.rate, |rate, _| {
         let overlap = (speed / rate).min(0.3 * case.range);
         let apart = axis::<D::V>(D::UP) * (case.range - overlap);
-        let touch = case.at(State {
-            apart,
-            velocity: D::V::ZERO,
-        });
+        let touch = case.at(State::at_rest(apart));
         let stiffness = L::linear(&case.pair, &touch, case.dt).normal_stiffness;
         if stiffness > 0.0 {
             (stiffness / case.mass).sqrt()
@@ -95,9 +108,28 @@ pub fn rebounds_with<D: Dim, L: ContactLaw<D, Still>>(
     e: f64,
     tolerance: f64,
 ) {
+    rebounds::<L>(e, tolerance, |speed| collide::<D, L>(law, a, b, speed));
+}
+
+/// As [`rebounds_with`], for a law of grains that turn.
+#[track_caller]
+pub fn rebounds_spinning_with<D: Dim, L: ContactLaw<D, Spins>>(
+    law: &L,
+    a: &Kind,
+    b: &Kind,
+    e: f64,
+    tolerance: f64,
+) {
+    rebounds::<L>(e, tolerance, |speed| {
+        collide_spinning::<D, L>(law, a, b, speed)
+    });
+}
+
+#[track_caller]
+fn rebounds<L>(e: f64, tolerance: f64, collide: impl Fn(f64) -> Option<Rebound>) {
     let wrong: String = SPEEDS
         .into_iter()
-        .filter_map(|speed| match collide::<D, L>(law, a, b, speed) {
+        .filter_map(|speed| match collide(speed) {
             Some(rebound) if (rebound.restitution - e).abs() <= tolerance => None,
             Some(rebound) => Some(format!("\n  at {speed} m/s: {:.5}", rebound.restitution)),
             None => Some(format!("\n  at {speed} m/s: the grains do not part")),

@@ -7,20 +7,22 @@ use std::fmt;
 pub enum Check {
     /// Range and stiffness are finite and positive, so that the suite has scales to work in.
     Scales,
-    /// Force, stored energy and linearisation are exactly zero at and beyond the range and for a
-    /// far-away dummy, whatever the contact remembers.
+    /// Force, twist, stored energy, linearisation and what is remembered are exactly zero at and beyond the
+    /// range and for a far-away dummy, whatever the contact remembered.
     Range,
     /// The force of resting grains starts from zero at the range.
     Rest,
-    /// Exchanging the two grains negates the force to the bit.
+    /// Exchanging the two grains negates the force to the bit, and leaves twist and memory as they are.
     Odd,
-    /// Turning the pair turns the force and changes nothing else.
+    /// Turning the pair, or looking at it in a mirror, turns the force and changes nothing else.
     Turning,
-    /// The elastic force is the negative gradient of the stored energy.
+    /// The elastic force is the negative gradient of the stored energy; with memory, what is stored is the
+    /// work that was put in.
     Potential,
     /// The viscous force never drives the motion; nor does slip without memory.
     Dashpot,
-    /// The slip force is at most μ times the normal force; zero without friction.
+    /// The slip force (of grains that turn the whole tangential force) is at most μ times the normal force; zero
+    /// without friction.
     Coulomb,
     /// The normal force never pulls (only if claimed).
     Tension,
@@ -32,6 +34,14 @@ pub enum Check {
     Collision,
     /// The force is the same in any units.
     Units,
+    /// The torque is that of the tangential force at the contact.
+    Twist,
+    /// No tangential force on grains that roll without slip, or turn as one body.
+    Rolling,
+    /// The tangential spring is never stretched further than friction can hold.
+    Stretch,
+    /// Momentum is kept, and angular momentum up to the overlap.
+    Momentum,
 }
 
 impl Check {
@@ -39,7 +49,7 @@ impl Check {
     pub fn asks(self) -> &'static str {
         match self {
             Self::Scales => "range and stiffness are finite and positive",
-            Self::Range => "exactly no force, energy or stiffness at and beyond the range",
+            Self::Range => "exactly no force, energy, stiffness or memory at and beyond the range",
             Self::Rest => "no force at the range and rest",
             Self::Odd => "exchanging the grains negates the force to the bit",
             Self::Turning => "turning the pair turns the force and nothing else",
@@ -51,6 +61,10 @@ impl Check {
             Self::Loop => "no energy is gained over a closed path",
             Self::Collision => "no energy is gained in a collision",
             Self::Units => "the same force in any units",
+            Self::Twist => "twist = −n × force",
+            Self::Rolling => "what rolls without slip is not rubbed",
+            Self::Stretch => "the tangential spring is no longer than friction can hold",
+            Self::Momentum => "momentum and angular momentum are kept",
         }
     }
 }

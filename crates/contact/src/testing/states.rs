@@ -1,13 +1,14 @@
 //! The states that the suite tries, in the law's own scales.
 
 use super::report::{Breach, Check};
-use tsubu_model::{ContactLaw, Dim, Kind, Numbers, Push, Still, Touch, Vector};
+use glam::DVec3;
+use tsubu_model::{ContactLaw, Dim, Kind, Numbers, Push, SpinState, Touch, Vector};
 
 /// Overlaps over the range. The smallest still leaves the force twelve digits above rounding.
 pub(super) const OVERLAPS: [f64; 4] = [1e-4, 1e-3, 1e-2, 5e-2];
 
 /// A law for one pair of kinds, with the scales that its states are measured in.
-pub(super) struct Case<'a, D: Dim, L: ContactLaw<D, Still>> {
+pub(super) struct Case<'a, D: Dim, S: SpinState, L: ContactLaw<D, S>> {
     pub law: &'a L,
     pub a: &'a Kind,
     pub b: &'a Kind,
@@ -26,12 +27,49 @@ pub(super) struct Case<'a, D: Dim, L: ContactLaw<D, Still>> {
 
 /// One state of a contact.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct State<V> {
-    pub apart: V,
-    pub velocity: V,
+pub(super) struct State<D: Dim, S: SpinState> {
+    pub apart: D::V,
+    pub velocity: D::V,
+    /// r_a ω_a + r_b ω_b, m/s.
+    pub spin: S::Turn<D>,
 }
 
-impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
+impl<D: Dim, S: SpinState> State<D, S> {
+    /// Without spin.
+    pub(super) fn moving(apart: D::V, velocity: D::V) -> Self {
+        Self {
+            apart,
+            velocity,
+            spin: Default::default(),
+        }
+    }
+
+    /// Nothing moves.
+    pub(super) fn at_rest(apart: D::V) -> Self {
+        Self::moving(apart, D::V::ZERO)
+    }
+
+    /// Unit vector from the partner to this grain.
+    pub(super) fn normal(&self) -> D::V {
+        self.apart * (1.0 / self.apart.length())
+    }
+
+    /// Velocity of the two surfaces against each other at the contact: v + n × spin.
+    pub(super) fn surface_velocity(&self) -> D::V {
+        self.velocity + rolled::<D, S>(self.normal(), self.spin)
+    }
+
+    /// The same contact seen from the partner.
+    pub(super) fn other_side(self) -> Self {
+        Self {
+            apart: -self.apart,
+            velocity: -self.velocity,
+            spin: self.spin,
+        }
+    }
+}
+
+impl<'a, D: Dim, S: SpinState, L: ContactLaw<D, S>> Case<'a, D, S, L> {
     pub(super) fn new(law: &'a L, a: &'a Kind, b: &'a Kind) -> Result<Self, Breach> {
         let pair = law.pair(a, b);
         let range = L::range(&pair);
@@ -47,10 +85,7 @@ impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
             rate: 0.0,
             dt: 1.0,
         };
-        let shallow = case.at(State {
-            apart: axis::<D::V>(0) * (0.99 * range),
-            velocity: D::V::ZERO,
-        });
+        let shallow = case.at(State::at_rest(axis::<D::V>(0) * (0.99 * range)));
         case.stiffness = L::linear(&pair, &shallow, case.dt).normal_stiffness;
         case.rate = (case.stiffness / mass).sqrt();
         case.dt = 0.02 / case.rate;
@@ -75,17 +110,17 @@ impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
     }
 
     /// The contact as the law sees it.
-    pub(super) fn at(&self, state: State<D::V>) -> Touch<D, Still> {
-        touch(state, self.a.radius + self.b.radius)
+    pub(super) fn at(&self, state: State<D, S>) -> Touch<D, S> {
+        touch(state, reach(self.a, self.b))
     }
 
     /// The force of a contact that has just begun.
-    pub(super) fn push(&self, state: State<D::V>) -> Push<D, Still> {
+    pub(super) fn push(&self, state: State<D, S>) -> Push<D, S> {
         L::force(&self.pair, &self.at(state), &mut L::Memory::zero(), self.dt)
     }
 
     /// The stored energy of a contact that has just begun.
-    pub(super) fn stored(&self, state: State<D::V>) -> f64 {
+    pub(super) fn stored(&self, state: State<D, S>) -> f64 {
         L::stored(&self.pair, &self.at(state), &L::Memory::zero())
     }
 
@@ -93,7 +128,7 @@ impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
     pub(super) fn states(
         &self,
         least: f64,
-    ) -> impl Iterator<Item = State<D::V>> + use<'_, 'a, D, L> {
+    ) -> impl Iterator<Item = State<D, S>> + use<'_, 'a, D, S, L> {
         let speed = 0.01 * self.range * self.rate;
         let overlaps = OVERLAPS
             .into_iter()
@@ -104,38 +139,82 @@ impl<'a, D: Dim, L: ContactLaw<D, Still>> Case<'a, D, L> {
                 .flat_map(move |(i, direction)| {
                     let apart = direction * (self.range * (1.0 - overlap));
                     let wander = scattered::<D::V>(1000 + i as u64);
+                    let turn = scattered::<S::Turn<D>>(2000 + i as u64);
                     [0.0, 1e-3, 1.0].map(|fast| State {
                         apart,
                         velocity: wander * (fast * speed),
+                        spin: turn * (fast * speed),
                     })
                 })
         })
     }
 
     /// The state in words, in the law's scales.
-    pub(super) fn words(&self, state: State<D::V>) -> String {
-        let State { apart, velocity } = state;
+    pub(super) fn words(&self, state: State<D, S>) -> String {
+        let State {
+            apart,
+            velocity,
+            spin,
+        } = state;
         let overlap = 1.0 - apart.length() / self.range;
+        let turning = if turns::<D, S>() {
+            format!(", r_a ω_a + r_b ω_b = {spin:?} m/s")
+        } else {
+            String::new()
+        };
         format!(
-            "at overlap {overlap:.3e} of the range, apart = {apart:?} m, velocity = {velocity:?} m/s"
+            "at overlap {overlap:.3e} of the range, apart = {apart:?} m, velocity = {velocity:?} m/s{turning}"
         )
     }
 }
 
-pub(super) fn touch<D: Dim>(state: State<D::V>, reach: f64) -> Touch<D, Still> {
-    let State { apart, velocity } = state;
+/// True if the grains turn.
+pub(super) fn turns<D: Dim, S: SpinState>() -> bool {
+    <S::Turn<D> as Vector>::AXES > 0
+}
+
+/// Sum of the radii; a wall is the grain's mirror.
+pub(super) fn reach(a: &Kind, b: &Kind) -> f64 {
+    a.radius + if b.radius == 0.0 { a.radius } else { b.radius }
+}
+
+pub(super) fn touch<D: Dim, S: SpinState>(state: State<D, S>, reach: f64) -> Touch<D, S> {
+    let State {
+        apart,
+        velocity,
+        spin,
+    } = state;
     Touch {
         apart,
         velocity,
         r2: apart.length_squared(),
         reach,
-        spin: Default::default(),
+        spin,
     }
 }
 
+/// The parts of a push by name.
+pub(super) fn parts<D: Dim, S: SpinState>(push: &Push<D, S>) -> [(&'static str, D::V); 3] {
+    [
+        ("elastic", push.elastic),
+        ("viscous", push.viscous),
+        ("slip", push.slip),
+    ]
+}
+
 /// Sizes of the parts of a force together: the scale of its rounding.
-pub(super) fn size<D: Dim>(push: &Push<D, Still>) -> f64 {
+pub(super) fn size<D: Dim, S: SpinState>(push: &Push<D, S>) -> f64 {
     push.elastic.length() + push.viscous.length() + push.slip.length()
+}
+
+/// n × spin, through space, where both dimensions are the same.
+pub(super) fn rolled<D: Dim, S: SpinState>(n: D::V, spin: S::Turn<D>) -> D::V {
+    D::from_space(D::to_space(n).cross(S::to_space::<D>(spin)))
+}
+
+/// arm × force as a vector of space.
+pub(super) fn moment<D: Dim>(arm: D::V, force: D::V) -> DVec3 {
+    D::to_space(arm).cross(D::to_space(force))
 }
 
 /// A unit vector along a coordinate axis.
@@ -163,7 +242,7 @@ pub(super) fn scattered<V: Vector>(number: u64) -> V {
             let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
             (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
         });
-        if v.length() > 0.3 {
+        if v.length() > 0.3 || V::AXES == 0 {
             return v;
         }
     }
@@ -177,7 +256,7 @@ pub(super) fn frame<V: Vector>(number: u64) -> (V, V) {
     (u, w * (1.0 / w.length()))
 }
 
-/// The vector turned about every axis in turn by an awkward angle.
+/// The vector turned about every axis in turn by an awkward angle. Turns axial vectors too: all of space, none of the plane.
 pub(super) fn turned<V: Vector>(v: V) -> V {
     let (sin, cos) = 0.7_f64.sin_cos();
     (1..V::AXES).fold(v, |v, last| {
@@ -187,5 +266,21 @@ pub(super) fn turned<V: Vector>(v: V) -> V {
             _ if a == last => sin * x + cos * y,
             _ => v.axis(a),
         })
+    })
+}
+
+/// The vector in a mirror across the first axis.
+pub(super) fn mirrored<V: Vector>(v: V) -> V {
+    V::from_axes(|a| if a == 0 { -v.axis(a) } else { v.axis(a) })
+}
+
+/// An axial vector in the same mirror: what lies along the first axis stays, what is across it turns round. All of the plane's is across.
+pub(super) fn mirrored_axial<W: Vector>(w: W) -> W {
+    W::from_axes(|a| {
+        if a == 0 && W::AXES == 3 {
+            w.axis(a)
+        } else {
+            -w.axis(a)
+        }
     })
 }

@@ -4,7 +4,8 @@
 #![allow(dead_code)]
 
 use tsubu_model::{
-    BodyState, Dim, Energies, Kind, Passage, Pose, Reading, Still, TouchingPair, Vector, View,
+    BodyState, Dim, Energies, Kind, Nothing, Passage, Pose, Reading, Still, TouchingPair, Vector,
+    View,
 };
 
 /// Grains, their touching pairs and a clock.
@@ -58,6 +59,9 @@ impl<D: Dim> View<D, Still> for Fake<D> {
     }
     fn velocity(&self, i: usize) -> D::V {
         D::from_space((self.velocity)(D::to_space(self.grains[i])))
+    }
+    fn spin(&self, _i: usize) -> Nothing {
+        Nothing
     }
     fn kind(&self, i: usize) -> &Kind {
         &self.kinds[i]
