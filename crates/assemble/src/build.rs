@@ -1,24 +1,26 @@
 //! Where the run-time choices become types: dimension, damping, tally.
 
-use crate::constants::Constants;
+use crate::constants::{Constants, Law};
 use crate::flow::{InletGate, OutletGate};
 use crate::gate::WallChanges;
 use crate::in_box::bodies_stay;
 use crate::observers::observers_of;
 use crate::plan::Plan;
 use crate::simulation::{Release, Running, Simulation};
+use crate::springs;
 use crate::start;
 use crate::surfaces::{Shaped, Shapes};
+use crate::water::Flow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use tsubu_engine::{
-    Body, KindSet, Lanes, Layout, NoTally, OneKind, Placed, Setup, Tally, TouchesAt, WithTally,
-    World,
+    Body, KindSet, Lanes, Layout, ManyKinds, NoTally, OneKind, Placed, Setup, Tally, TouchesAt,
+    WithTally, World,
 };
 use tsubu_measure::Slices;
 use tsubu_model::{
-    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, SpinState, Still,
-    Surface, Turn, Vector,
+    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, SpinState, Spins,
+    Still, Surface, Turn,
 };
 use tsubu_scene as scene;
 use tsubu_scene::{Axis, Checked, Removal, SceneError};
@@ -113,8 +115,14 @@ fn in_dimension<D: Shaped + Slices>(
     } else {
         None
     };
+    let water = match &checked.scene.water {
+        Some(water) => Some(Flow::of(checked, water, &constants)?),
+        None => None,
+    };
     let parts = Parts {
         checked,
+        water,
+        allow_unstable: choices.allow_unstable,
         constants: &constants,
         surfaces,
         domain,
@@ -123,17 +131,40 @@ fn in_dimension<D: Shaped + Slices>(
         pool,
     };
     let energies = checked.scene.output.energies;
-    let law = constants.law;
     let share = checked.scene.still.map_or(1.0, |s| s.damping);
-    let settling = law.softened(1.0, share, share);
-    let (kinds, walls) = (OneKind([constants.kind]), constants.walls.clone());
-    let (sided, settling_sided) = (law.per_direction(), settling.per_direction());
-    let simulation = match (constants.isotropic, energies) {
-        (true, false) => parts.run::<Still, _, _, _, NoTally>(kinds, law, settling, walls),
-        (true, true) => parts.run::<Still, _, _, _, WithTally>(kinds, law, settling, walls),
-        (false, false) => parts.run::<Still, _, _, _, NoTally>(kinds, sided, settling_sided, walls),
-        (false, true) => {
-            parts.run::<Still, _, _, _, WithTally>(kinds, sided, settling_sided, walls)
+    let kind = constants.kind;
+    let simulation = match &constants.law {
+        Law::Repulsion {
+            law,
+            isotropic,
+            walls,
+        } => {
+            let (law, walls, kinds) = (*law, walls.clone(), OneKind([kind]));
+            let settling = law.softened(1.0, share, share);
+            let (sided, settling_sided) = (law.per_direction(), settling.per_direction());
+            match (isotropic, energies) {
+                (true, false) => parts.run::<Still, _, _, _, NoTally>(kinds, law, settling, walls),
+                (true, true) => parts.run::<Still, _, _, _, WithTally>(kinds, law, settling, walls),
+                (false, false) => {
+                    parts.run::<Still, _, _, _, NoTally>(kinds, sided, settling_sided, walls)
+                }
+                (false, true) => {
+                    parts.run::<Still, _, _, _, WithTally>(kinds, sided, settling_sided, walls)
+                }
+            }
+        }
+        Law::SpringDashpot { law, walls } => {
+            let settling = springs::settling(law, share);
+            let walls = walls.clone();
+            match constants.fixed {
+                None => {
+                    parts.run::<Spins, _, _, _, NoTally>(OneKind([kind]), *law, settling, walls)
+                }
+                Some(fixed) => {
+                    let kinds = ManyKinds(vec![kind, fixed]);
+                    parts.run::<Spins, _, _, _, NoTally>(kinds, *law, settling, walls)
+                }
+            }
         }
     };
     Ok(Built { simulation, plan })
@@ -143,6 +174,8 @@ fn in_dimension<D: Shaped + Slices>(
 struct Parts<'a, D: Layout> {
     checked: &'a Checked,
     constants: &'a Constants,
+    water: Option<Flow>,
+    allow_unstable: bool,
     surfaces: Vec<Arc<dyn Surface<D>>>,
     domain: Domain<D>,
     grains: Vec<Placed<D>>,
@@ -189,12 +222,12 @@ impl<D: Layout + Slices> Parts<'_, D> {
         } else {
             (law, None)
         };
-        let world = World::new(Setup {
+        let mut world = World::new(Setup {
             kinds,
             law,
             bodies,
             domain: self.domain,
-            gravity: D::V::from_axes(|a| if a == D::UP { -scene.gravity } else { 0.0 }),
+            gravity: D::from_space(gravity_of(scene)),
             scheme: self.constants.scheme,
             dt: self.constants.dt,
             skin: scene
@@ -210,6 +243,12 @@ impl<D: Layout + Slices> Parts<'_, D> {
                 .chain(scene.inlets.iter().map(|i| i.name.clone()))
                 .collect(),
         });
+        let water = self.water.map(|water| {
+            let lost_bed = water.lost_bed.clone();
+            world.add_load(Box::new(water));
+            lost_bed
+        });
+        let begins = scene.water.as_ref().map(|water| water.begins);
         let movers: Vec<bool> = scene.walls.iter().map(|w| w.motion.is_some()).collect();
         Box::new(Running::<D, S, K, L, W, T> {
             shells: self
@@ -225,10 +264,29 @@ impl<D: Layout + Slices> Parts<'_, D> {
             end: scene.time.end,
             release,
             trouble: None,
+            // A soft bed is pressed deep by its own weight; past its centre no law pushes a grain back.
+            deep: match self.constants.law {
+                Law::Repulsion { .. } => 0.3,
+                Law::SpringDashpot { .. } => 0.9,
+            },
+            lost_bed: water,
+            weigh_at: begins.map(|t| (t / self.constants.dt).round() as u64),
+            refuse_unstable: !self.allow_unstable,
+            used: None,
             law_after,
             world,
         })
     }
+}
+
+/// Downwards, and leaning by the slope of the bed.
+fn gravity_of(scene: &scene::Scene) -> glam::DVec3 {
+    let slope = scene.water.as_ref().map_or(0.0, |water| water.slope);
+    let along = glam::DVec3::new(slope, 0.0, -1.0);
+    if slope == 0.0 {
+        return along * scene.gravity;
+    }
+    along.normalize() * scene.gravity
 }
 
 /// The motion of a wall, counted from the start, or from the moment for which it waits.

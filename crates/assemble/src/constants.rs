@@ -1,10 +1,11 @@
 //! From the scene's grains to the constants that run: softened, then coarsened, then the step.
 
+use crate::springs;
 use std::f64::consts::PI;
 use tsubu_coarsen::{
     CoarseRule, Gap, Level, RadlRestitution, Renormalised, SakaiKoshizuka, check_gaps, coarsen,
 };
-use tsubu_contact::{BodyLaw, Repulsion, RepulsiveWall, WallGrains, restitution};
+use tsubu_contact::{BodyLaw, Repulsion, RepulsiveWall, SpringDashpot, WallGrains, restitution};
 use tsubu_integrate::Scheme;
 use tsubu_model::Kind;
 use tsubu_scene as scene;
@@ -15,12 +16,10 @@ use tsubu_scene::{Checked, SceneError};
 pub struct Constants {
     /// The grain.
     pub kind: Kind,
-    /// The law between grains.
-    pub law: Repulsion,
-    /// True if γn = γt: the law needs neither root nor projection.
-    pub isotropic: bool,
-    /// The law at each wall.
-    pub walls: Vec<BodyLaw>,
+    /// Grains that no force moves, of a bed's fixed row; `None` if there are none.
+    pub fixed: Option<Kind>,
+    /// The laws.
+    pub law: Law,
     /// λ = 2^n.
     pub lambda: f64,
     /// Name of the coarse-graining rule.
@@ -35,15 +34,45 @@ pub struct Constants {
     pub period: f64,
 }
 
+/// The law between grains, with that of each wall.
+#[derive(Clone, Debug)]
+pub enum Law {
+    /// Of grains without spin.
+    Repulsion {
+        /// Between grains.
+        law: Repulsion,
+        /// True if γn = γt: the law needs neither root nor projection.
+        isotropic: bool,
+        /// At each wall.
+        walls: Vec<BodyLaw>,
+    },
+    /// Of grains that turn.
+    SpringDashpot {
+        /// Between grains.
+        law: SpringDashpot,
+        /// At each wall.
+        walls: Vec<SpringDashpot>,
+    },
+}
+
+impl Law {
+    /// Normal stiffness of two grains in N/m.
+    pub fn stiffness(&self) -> f64 {
+        match self {
+            Law::Repulsion { law, .. } => law.stiffness(),
+            Law::SpringDashpot { law, .. } => law.normal_stiffness,
+        }
+    }
+}
+
 impl Constants {
     /// Works out the constants; refuses a coarse level that a gap or the rule does not bear.
     pub fn of(checked: &Checked) -> Result<Self, SceneError> {
         let scene = &checked.scene;
         let grains = &scene.grains;
-        let fine = Kind::with_mass(grains.diameter, grains.mass);
-        let law = softened(grains);
+        let fine = springs::grain(checked)?;
         let level = Level::new(grains.coarse);
-        let rule = rule_of(checked, &law, &fine)?;
+        let rule = rule_of(checked, &fine)?;
         let refuse = |trouble: tsubu_coarsen::TooCoarse| {
             checked.problem(
                 "grains.coarse",
@@ -52,24 +81,20 @@ impl Constants {
             )
         };
         let kind = coarsen(&*rule, &fine, level).map_err(refuse)?;
-        let coarse = coarsen(&*rule, &law, level).map_err(refuse)?;
-        // A wall shares the grains' potential; its own constants go through the plain rule (crate coarsen says why).
-        let walls = scene
-            .walls
-            .iter()
-            .map(|w| match w.shape.wall_grains() {
-                // Of the coarse grains' material, at the size that the scene gives.
-                Some(radius) => BodyLaw::Grains(WallGrains {
-                    grains: coarse,
-                    radius,
-                }),
-                None => BodyLaw::Surface(RepulsiveWall {
-                    grains: coarse,
-                    restitution: w.restitution,
-                    friction: w.friction.unwrap_or(0.0),
-                }),
-            })
-            .collect();
+        let law = match &grains.law {
+            scene::Law::Repulsion { stiffness, damping } => {
+                let law = softened(grains, stiffness, damping);
+                repulsion(scene, coarsen(&*rule, &law, level).map_err(refuse)?)
+            }
+            scene::Law::SpringDashpot(wanted) => {
+                let law = springs::law(wanted, &fine);
+                let law = coarsen(&*rule, &law, level).map_err(refuse)?;
+                Law::SpringDashpot {
+                    law,
+                    walls: springs::walls(scene, &law, &kind),
+                }
+            }
+        };
         if grains.coarse > 0 {
             check_gaps(&gaps(scene), grains.diameter, level).map_err(|narrow| {
                 checked.problem(
@@ -79,23 +104,31 @@ impl Constants {
                 )
             })?;
         }
-        let period = 2.0 * PI * (0.5 * kind.mass / coarse.stiffness()).sqrt();
+        let period = 2.0 * PI * (0.5 * kind.mass / law.stiffness()).sqrt();
         let dt = match scene.time.step {
             scene::Step::PerPeriod(steps) => period / steps,
             scene::Step::Seconds(dt) => dt * rule.step_factor(level.lambda()),
             scene::Step::Exactly(dt) => dt,
         };
-        let mut sources = vec!["Sumitomo2024", "Weeks1971"];
+        let mut sources = match law {
+            Law::Repulsion { .. } => vec!["Sumitomo2024", "Weeks1971"],
+            Law::SpringDashpot { .. } => vec!["Gotoh2001"],
+        };
         if grains.coarse > 0 {
             let of_rule = rule.source().split(',').map(str::trim);
             let new: Vec<&str> = of_rule.filter(|key| !sources.contains(key)).collect();
             sources.extend(new);
         }
+        let bed = matches!(scene.initial, scene::Initial::Bed(_));
         Ok(Self {
             kind,
-            law: coarse,
-            isotropic: coarse.normal_damping == coarse.tangential_damping,
-            walls,
+            fixed: bed.then_some(Kind {
+                mass: f64::INFINITY,
+                inertia: f64::INFINITY,
+                weight: 0.0,
+                ..kind
+            }),
+            law,
             lambda: level.lambda(),
             rule: rule.name(),
             sources,
@@ -112,12 +145,41 @@ impl Constants {
 
     /// C = γΔt/m with the larger of the two dampings.
     pub fn c(&self) -> f64 {
-        self.law.normal_damping.max(self.law.tangential_damping) * self.dt / self.kind.mass
+        let damping = match &self.law {
+            Law::Repulsion { law, .. } => law.normal_damping.max(law.tangential_damping),
+            Law::SpringDashpot { law, .. } => law.normal_damping,
+        };
+        damping * self.dt / self.kind.mass
     }
 }
 
-fn softened(grains: &scene::Grains) -> Repulsion {
-    let scene::Law::Repulsion { stiffness, damping } = &grains.law;
+/// The laws of grains without spin. A wall shares the grains' potential; its own constants go through the plain rule
+/// (crate coarsen says why).
+fn repulsion(scene: &scene::Scene, coarse: Repulsion) -> Law {
+    let wall = |wall: &scene::Wall| match wall.shape.wall_grains() {
+        // Of the coarse grains' material, at the size that the scene gives.
+        Some(radius) => BodyLaw::Grains(WallGrains {
+            grains: coarse,
+            radius,
+        }),
+        None => BodyLaw::Surface(RepulsiveWall {
+            grains: coarse,
+            restitution: wall.restitution,
+            friction: wall.friction.unwrap_or(0.0),
+        }),
+    };
+    Law::Repulsion {
+        law: coarse,
+        isotropic: coarse.normal_damping == coarse.tangential_damping,
+        walls: scene.walls.iter().map(wall).collect(),
+    }
+}
+
+fn softened(
+    grains: &scene::Grains,
+    stiffness: &scene::Stiffness,
+    damping: &scene::Damping,
+) -> Repulsion {
     let (normal, tangential) = match *damping {
         scene::Damping::Equal(g) => (g, g),
         scene::Damping::Parts { normal, tangential } => (normal, tangential),
@@ -143,16 +205,22 @@ fn softened(grains: &scene::Grains) -> Repulsion {
     law.softened(grains.soften, n, t)
 }
 
-fn rule_of(
-    checked: &Checked,
-    law: &Repulsion,
-    kind: &Kind,
-) -> Result<Box<dyn CoarseRule>, SceneError> {
+fn rule_of(checked: &Checked, kind: &Kind) -> Result<Box<dyn CoarseRule>, SceneError> {
     Ok(match checked.scene.grains.coarse_rule {
         scene::CoarseRule::Renormalised => Box::new(Renormalised),
         scene::CoarseRule::SakaiKoshizuka => Box::new(SakaiKoshizuka),
         scene::CoarseRule::RadlRestitution => {
-            let e = restitution::at_zero_overlap(law.damping_ratio(0.5 * kind.mass));
+            let grains = &checked.scene.grains;
+            let e = match &grains.law {
+                scene::Law::Repulsion { stiffness, damping } => {
+                    let law = softened(grains, stiffness, damping);
+                    restitution::at_zero_overlap(law.damping_ratio(0.5 * kind.mass))
+                }
+                scene::Law::SpringDashpot(wanted) => {
+                    let law = springs::law(wanted, kind);
+                    restitution::at_zero_force(law.damping_ratio(0.5 * kind.mass))
+                }
+            };
             let rule = RadlRestitution::new(e).map_err(|bad| {
                 checked.problem(
                     "grains.coarse_rule",

@@ -29,6 +29,7 @@
 //! # Ok::<(), tsubu_scene::SceneError>(())
 //! ```
 
+mod bed;
 mod build;
 mod constants;
 mod fill;
@@ -38,10 +39,12 @@ mod in_box;
 mod observers;
 mod plan;
 mod simulation;
+mod springs;
 mod start;
 mod surfaces;
+mod water;
 
 pub use build::{Built, Choices, Hearer, Watch, build};
-pub use constants::Constants;
+pub use constants::{Constants, Law};
 pub use plan::{LimitLine, Plan};
 pub use simulation::{Grain, Machine, Simulation, Snapshot, Stop};

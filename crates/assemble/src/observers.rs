@@ -1,13 +1,17 @@
 //! From what a scene asks to measure to the observers of a run.
 
 use crate::constants::Constants;
+use crate::springs::{clear_water, sediment};
+use crate::water::friction_velocity;
 use std::sync::Arc;
 use tsubu_measure::{
-    Balance, Conveying, ConveyingOptions, Energy, Flow, Heap, HeapOptions, Loads, Slices, Structure,
+    Balance, BedLoad, BedLoadOptions, Conveying, ConveyingOptions, Energy, Flow, Heap, HeapOptions,
+    Loads, Slices, Structure,
 };
 use tsubu_model::{Dim, Domain, Observer, SpinState, Surface, Vector};
 use tsubu_scene as scene;
 use tsubu_scene::{Removal, Shape};
+use tsubu_stream::TransportCurve;
 
 /// The measures of a screw conveyor; its axis points the way it feeds.
 fn conveying_of<D: Dim>(
@@ -41,6 +45,44 @@ fn conveying_of<D: Dim>(
         casing: wanted.casing,
         hopper: wanted.hopper.map(|hopper| [hopper.min, hopper.max]),
         density: scene.grains.density(),
+    }))
+}
+
+/// The transport of a bed, beside the relations of the books.
+fn bed_load_of<D: Dim>(
+    scene: &scene::Scene,
+    constants: &Constants,
+    domain: &Domain<D>,
+) -> Option<BedLoad> {
+    let (water, wanted) = (scene.water.as_ref()?, scene.measures.bed?);
+    let (clear, sand) = (clear_water(water, scene.gravity), sediment(&scene.grains));
+    // All were checked when the water was made.
+    let speed = friction_velocity(scene, water).ok()?;
+    let shields = clear.shields(&sand, speed).ok()?;
+    let unit = clear.transport_unit(&sand).ok()?;
+    let diameter = constants.kind.diameter();
+    let relation = |name, curve: TransportCurve| curve.transport(shields).ok().map(|q| (name, q));
+    Some(BedLoad::new(BedLoadOptions {
+        length: domain.period.axis(0),
+        width: if D::V::AXES == 3 {
+            domain.period.axis(1)
+        } else {
+            diameter
+        },
+        diameter,
+        unit,
+        shields,
+        expected: [
+            relation("meyer_peter_mueller", TransportCurve::MEYER_PETER_MULLER),
+            relation("wong_parker", TransportCurve::WONG_PARKER),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
+        begins: water.begins,
+        skip: wanted.skip,
+        moving_speed: 0.1 * (clear.submerged_gravity(&sand).ok()? * sand.diameter).sqrt(),
+        sizes: Vec::new(),
     }))
 }
 
@@ -78,6 +120,9 @@ pub(crate) fn observers_of<D: Slices, S: SpinState>(
         let conveying = conveying_of(scene, wanted, surfaces);
         observers.extend(conveying.map(|c| Box::new(c) as Box<dyn Observer<D, S>>));
     }
+    observers.extend(
+        bed_load_of(scene, constants, domain).map(|o| Box::new(o) as Box<dyn Observer<D, S>>),
+    );
     if scene.output.energies {
         observers.push(Box::new(Energy::new()));
     }

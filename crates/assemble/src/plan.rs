@@ -1,12 +1,13 @@
 //! What a scene models and what not, and how far its step is from each limit.
 
-use crate::constants::Constants;
+use crate::constants::{Constants, Law};
 use std::f64::consts::PI;
-use tsubu_contact::{BodyLaw, BodyPair};
+use tsubu_contact::{BodyLaw, BodyPair, SpringDashpot, Tension};
 use tsubu_integrate::{Limit, Packing};
 use tsubu_model::{ContactLaw, Kind, Space, Still};
 use tsubu_scene::{
-    Axis, Begin, Checked, Course, End, Fate, Initial, MeshSurface, Motion, Scene, SceneError, Shape,
+    Axis, Begin, Checked, Course, End, Fate, Flow, Initial, MeshSurface, Motion, Scene, SceneError,
+    Shape, Turbulence,
 };
 
 /// One limit of the step.
@@ -157,9 +158,12 @@ fn shares(constants: &Constants) -> Vec<LimitLine> {
             used: limit.used_by_packing(k, c, Packing::FaceCentredCubic),
         },
     ];
+    let Law::Repulsion { walls, .. } = &constants.law else {
+        return of_springs(constants);
+    };
     let per_mass = constants.dt / constants.kind.mass;
     let (mut at_walls, mut at_grains) = (None::<f64>, None::<f64>);
-    for law in &constants.walls {
+    for law in walls {
         let pair =
             <BodyLaw as ContactLaw<Space, Still>>::pair(law, &constants.kind, &Kind::immovable());
         match pair {
@@ -187,8 +191,108 @@ fn shares(constants: &Constants) -> Vec<LimitLine> {
     lines
 }
 
+/// Limits of grains that turn. Rolling on each other is stiffer than pressing: a torque turns a sphere more easily than a
+/// force moves it. What the packing itself bears is worked out when it lies.
+fn of_springs(constants: &Constants) -> Vec<LimitLine> {
+    let Law::SpringDashpot { law, walls } = &constants.law else {
+        return Vec::new();
+    };
+    let (limit, kind) = (constants.scheme.limit(), constants.kind);
+    let per_mass = constants.dt / kind.mass;
+    // A tangential force acts on m and, through r, on I: 1/m + r²/I.
+    let turning = 1.0 + kind.mass * kind.radius * kind.radius / kind.inertia;
+    let of = |law: &SpringDashpot, factor: f64| {
+        let k = |k: f64, f: f64| f * k * constants.dt * per_mass;
+        let c = |c: f64, f: f64| f * c * per_mass;
+        [
+            limit.used(
+                k(law.normal_stiffness, factor),
+                c(law.normal_damping, factor),
+            ),
+            limit.used(
+                k(law.tangential_stiffness, factor * turning),
+                c(law.tangential_damping, factor * turning),
+            ),
+        ]
+    };
+    let line = |name: &str, used: f64| LimitLine {
+        name: name.into(),
+        used,
+    };
+    let [along, across] = of(law, 2.0);
+    let mut lines = vec![
+        line("a pair of grains", along),
+        line("a pair that rolls on itself", across),
+    ];
+    let at_walls = walls
+        .iter()
+        .flat_map(|law| of(law, 1.0))
+        .reduce(f64::max)
+        .map(|used| line("a grain at a wall", used));
+    lines.extend(at_walls);
+    lines
+}
+
+fn law_words(constants: &Constants) -> String {
+    match &constants.law {
+        Law::Repulsion { law, isotropic, .. } => format!(
+            "law Repulsion: k = {:.4e} N/m, {}; restitution of a pair {:.3}",
+            law.stiffness(),
+            if *isotropic {
+                format!(
+                    "damping {:.4} kg/s in every direction (no projection, no root)",
+                    law.normal_damping
+                )
+            } else {
+                format!(
+                    "damping {:.4} kg/s along, {:.4} kg/s across the contact",
+                    law.normal_damping, law.tangential_damping
+                )
+            },
+            tsubu_contact::restitution::at_zero_overlap(
+                law.damping_ratio(0.5 * constants.kind.mass)
+            ),
+        ),
+        Law::SpringDashpot { law, .. } => {
+            let zeta = law.damping_ratio(0.5 * constants.kind.mass);
+            format!(
+                "law SpringDashpot: kn = {:.4e}, ks = {:.4e} N/m, damping {:.4e} and {:.4e} kg/s, friction {}; {:?}, slip {:?}, normal force {:?}; restitution of a pair {:.3}",
+                law.normal_stiffness,
+                law.tangential_stiffness,
+                law.normal_damping,
+                law.tangential_damping,
+                law.friction,
+                law.tension,
+                law.slip,
+                law.normal,
+                match law.tension {
+                    Tension::NoPull => tsubu_contact::restitution::at_zero_force(zeta),
+                    Tension::AsPrinted => tsubu_contact::restitution::at_zero_overlap(zeta),
+                }
+            )
+        }
+    }
+}
+
+fn water_words(water: &tsubu_scene::Water) -> String {
+    let flow = match &water.flow {
+        Flow::Shields(shields) => format!("Shields number {shields}"),
+        Flow::FrictionVelocity(speed) => format!("friction velocity {speed} m/s"),
+        Flow::OverTime(rows) => format!("friction velocity over time, {} rows", rows.len()),
+    };
+    let turbulence = match water.turbulence {
+        Turbulence::Off => "no turbulence".to_owned(),
+        Turbulence::Switched {
+            frequency, seed, ..
+        } => format!("turbulence at {frequency} Hz, seed {seed}"),
+    };
+    format!(
+        "water along x from {} s on: {flow}, {turbulence}, drag {}, added mass {}, slope {}",
+        water.begins, water.drag, water.added_mass, water.slope
+    )
+}
+
 fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
-    let law = &constants.law;
     let mut lines = vec![
         match scene.space {
             tsubu_scene::Space::Space => "space: three coordinates, z up".to_owned(),
@@ -209,24 +313,7 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
                 String::new()
             }
         ),
-        format!(
-            "law Repulsion: k = {:.4e} N/m, {}; restitution of a pair {:.3}",
-            law.stiffness(),
-            if constants.isotropic {
-                format!(
-                    "damping {:.4} kg/s in every direction (no projection, no root)",
-                    law.normal_damping
-                )
-            } else {
-                format!(
-                    "damping {:.4} kg/s along, {:.4} kg/s across the contact",
-                    law.normal_damping, law.tangential_damping
-                )
-            },
-            tsubu_contact::restitution::at_zero_overlap(
-                law.damping_ratio(0.5 * constants.kind.mass)
-            ),
-        ),
+        law_words(constants),
     ];
     if scene.grains.soften > 1.0 {
         lines.push(format!(
@@ -286,9 +373,18 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
             ));
         }
     }
-    if let Initial::Fill(fill) = &scene.initial {
-        lines.push(format!("start: random places, seed {}", fill.seed));
+    match &scene.initial {
+        Initial::Fill(fill) => lines.push(format!("start: random places, seed {}", fill.seed)),
+        Initial::Bed(bed) => lines.push(format!(
+            "start: a fixed row and {} layers that fall on it, seed {}",
+            bed.layers, bed.seed
+        )),
+        Initial::File(_) | Initial::Grains(_) => {}
     }
+    if let Law::SpringDashpot { .. } = constants.law {
+        lines.push("spin: grains turn, contacts remember their stretch".into());
+    }
+    lines.extend(scene.water.as_ref().map(water_words));
     lines
 }
 
@@ -334,17 +430,32 @@ fn motion(motion: &Motion) -> String {
 }
 
 fn not_modelled(scene: &Scene) -> Vec<String> {
-    let mut lines = vec![
-        "spin: grains do not turn and store no spin".to_owned(),
-        "static friction and contact memory: a heap creeps, its angle is a function of time"
-            .to_owned(),
-        "water, air, cohesion, breakage, grains of several sizes".to_owned(),
-    ];
-    if !scene.output.energies {
-        lines.push(
-            "energy lost to damping and friction: not tallied (output.energies: true does)"
+    let mut lines = match &scene.grains.law {
+        tsubu_scene::Law::Repulsion { .. } => vec![
+            "spin: grains do not turn and store no spin".to_owned(),
+            "static friction and contact memory: a heap creeps, its angle is a function of time"
                 .to_owned(),
-        );
+            "water, air, cohesion, breakage, grains of several sizes".to_owned(),
+        ],
+        tsubu_scene::Law::SpringDashpot(_) => vec![
+            "resistance to rolling".to_owned(),
+            match scene.water {
+                Some(_) => "lift, the grains' effect on the water, air, cohesion, breakage, grains of several sizes",
+                None => "water, air, cohesion, breakage, grains of several sizes",
+            }
+            .to_owned(),
+        ],
+    };
+    if !scene.output.energies {
+        lines.push(match scene.grains.law {
+            tsubu_scene::Law::Repulsion { .. } => {
+                "energy lost to damping and friction: not tallied (output.energies: true does)"
+                    .to_owned()
+            }
+            tsubu_scene::Law::SpringDashpot(_) => {
+                "energy lost to damping and friction: not tallied".to_owned()
+            }
+        });
     }
     lines
 }

@@ -3,15 +3,13 @@
 use crate::gate::agitation;
 use glam::DVec3;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use tsubu_engine::{Health, KindSet, Layout, Tally, World};
 use tsubu_model::{
     Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Pose, Reading, Shell, SpinState,
     Surface, View,
 };
 use tsubu_scene::End;
-
-/// Overlap over the law's range above which a run stops: the laws are made for a hundredth.
-const DEEP: f64 = 0.3;
 
 /// Steps between two looks for deep overlaps, and one at the end: fixed, so that the cadence of outputs decides nothing.
 const DEPTH_EVERY: u64 = 1000;
@@ -31,6 +29,18 @@ pub enum Stop {
         agitation: f64,
         /// What the scene asks for.
         asked: f64,
+    },
+    /// The water found no bed to flow over.
+    NoBed {
+        /// When it looked, in s.
+        time: f64,
+    },
+    /// The step is over the limit of the packing as it lies.
+    UnstablePacking {
+        /// When it was looked at, in s.
+        time: f64,
+        /// Share of the limit that it uses.
+        used: f64,
     },
 }
 
@@ -138,6 +148,16 @@ pub(crate) struct Running<
     /// The body whose removal or start starts the clock, and the time by which that must have come.
     pub release: Option<Release>,
     pub trouble: Option<Stop>,
+    /// Overlap over the law's range above which a run stops.
+    pub deep: f64,
+    /// Set by the water when it finds no bed.
+    pub lost_bed: Option<Arc<AtomicBool>>,
+    /// The step at which the limit of the packing as it lies is worked out.
+    pub weigh_at: Option<u64>,
+    /// True if a step over that limit ends the run.
+    pub refuse_unstable: bool,
+    /// Share of the limit that the packing used then.
+    pub used: Option<f64>,
     /// The law from the release on, if another one holds while the grains settle.
     pub law_after: Option<L>,
 }
@@ -164,6 +184,24 @@ where
         match self.end {
             End::Until(seconds) => (seconds / self.world.dt()).round().max(1.0) as u64,
             End::Steps(steps) => steps,
+        }
+    }
+
+    fn is_bed_lost(&self) -> bool {
+        self.lost_bed
+            .as_ref()
+            .is_some_and(|lost| lost.load(Ordering::Relaxed))
+    }
+
+    /// How much of the limit of an explicit step the packing uses as it lies now.
+    fn weigh(&mut self) {
+        let used = self.world.stiffest_mode() / 4.0;
+        self.used = Some(used);
+        if used >= 1.0 && self.refuse_unstable {
+            self.trouble = Some(Stop::UnstablePacking {
+                time: self.world.now(),
+                used,
+            });
         }
     }
 
@@ -224,16 +262,25 @@ where
                 batch = batch.min(self.gate_every - now % self.gate_every);
             }
             batch = batch.min(DEPTH_EVERY - now % DEPTH_EVERY);
+            if let Some(at) = self.weigh_at.filter(|&at| at > now) {
+                batch = batch.min(at - now);
+            }
             self.world.advance(batch);
             let mut health = self.world.health();
             let here = self.world.steps();
             if health.is_fine()
                 && (here.is_multiple_of(DEPTH_EVERY) || self.last_step() == Some(here))
             {
-                health = self.world.overlap_health(DEEP);
+                health = self.world.overlap_health(self.deep);
             }
             if !health.is_fine() {
                 self.trouble = Some(Stop::Trouble(health));
+            } else if self.is_bed_lost() {
+                self.trouble = Some(Stop::NoBed {
+                    time: self.world.now(),
+                });
+            } else if self.weigh_at == Some(here) {
+                self.weigh();
             } else if !self.gates.is_empty() && self.world.steps().is_multiple_of(self.gate_every) {
                 self.decide();
             }
@@ -287,7 +334,12 @@ where
     }
 
     fn report(&self) -> Vec<Reading> {
-        self.observers.iter().flat_map(|o| o.report()).collect()
+        let mut report: Vec<Reading> = self.observers.iter().flat_map(|o| o.report()).collect();
+        report.extend(
+            self.used
+                .map(|used| Reading::new("step_over_limit", used, "1")),
+        );
+        report
     }
 
     fn curves(&self) -> Vec<Curve> {

@@ -1,5 +1,6 @@
 //! Where the grains are at the start, from a file, a list or a random fill; refused if they overlap.
 
+use crate::bed::bed;
 use crate::constants::Constants;
 use crate::fill::{Box3, fill};
 use crate::surfaces::read_mesh;
@@ -43,7 +44,10 @@ pub(crate) fn grains<D: Dim>(
                 })
                 .collect()
         }
-        None => filled(checked, diameter, domain, surfaces)?,
+        None => match &checked.scene.initial {
+            Initial::Bed(wanted) => bed::<D>(wanted, diameter, domain),
+            _ => filled(checked, diameter, domain, surfaces)?,
+        },
     };
     refuse_walls(checked, &grains, diameter, surfaces)?;
     refuse_overlaps(checked, &grains, diameter, domain)?;

@@ -51,9 +51,10 @@ pub use check::Checked;
 pub use error::SceneError;
 pub use grain_file::GrainFile;
 pub use scene::{
-    Axis, Begin, CoarseRule, Conveying, Course, Damping, Domain, End, Fate, Fill, Grains, Hand,
-    Initial, Inlet, Integrator, Law, Measures, MeshFile, MeshSurface, Motion, Outlet, Output,
-    Region, Removal, Scene, Shape, Shift, SoftenedDamping, Space, StartingGrain, Step, Stiffness,
-    Still, Thin, Time, TouchesAt, Turn, Wall,
+    Axis, Bed, BedMeasure, Begin, CoarseRule, Conveying, Course, Damping, Datum, Domain, End, Fate,
+    Fill, Flow, FlowProfile, Grains, Hand, Initial, Inlet, Integrator, Law, Measures, MeshFile,
+    MeshSurface, Motion, NormalForce, Outlet, Output, Region, Removal, Scene, Shape, Shift, Slip,
+    SoftenedDamping, Space, SpringConstants, SpringDashpot, StartingGrain, Step, Stiffness, Still,
+    Tension, Thin, Time, TouchesAt, Turbulence, Turn, Wall, Water,
 };
 pub use source::Source;

@@ -27,7 +27,7 @@ macro_rules! quantities {
     )*};
 }
 
-quantities!(Length Time Mass Density Pressure Velocity Acceleration Energy Damping AngularVelocity Frequency);
+quantities!(Length Time Mass Density Pressure Velocity Acceleration Energy Stiffness Damping AngularVelocity Frequency);
 
 /// A quantity of a dimension, in SI.
 #[derive(Clone, Copy, Debug)]

@@ -3,11 +3,16 @@
 //! The names of the types are what `ron` puts into its messages.
 
 mod flow;
+mod river;
 mod wall;
 
 use serde::Deserialize;
 
 pub(crate) use flow::{RawConveying, RawFate, RawInlet, RawMeasures, RawOutlet};
+pub(crate) use river::{
+    RawBed, RawBedMeasure, RawDatum, RawNormalForce, RawSlip, RawSpringConstants, RawTension,
+    RawTurbulence, RawWater,
+};
 pub(crate) use wall::{
     MESH_UNITS, MeshUnit, RawBegin, RawHand, RawMeshFile, RawMotion, RawRemoval, RawShape,
     RawShift, RawSurface, RawThin, RawTouchesAt, RawTurn, RawWall,
@@ -28,6 +33,7 @@ pub(crate) const TOP: &[&str] = &[
     "initial",
     "outlets",
     "inlets",
+    "water",
     "still",
     "time",
     "neighbours",
@@ -38,14 +44,29 @@ pub(crate) const TOP: &[&str] = &[
 /// Groups of fields of which exactly one is given: the path of the block, and the fields.
 pub(crate) const ONE_OF: &[(&str, &[&str])] = &[
     ("grains", &["density", "mass"]),
-    ("initial", &["file", "fill", "grains"]),
+    ("initial", &["file", "fill", "grains", "bed"]),
     ("time", &["until", "steps"]),
+    (
+        "water",
+        &[
+            "shields",
+            "friction_velocity",
+            "friction_velocity_over_time",
+        ],
+    ),
 ];
 
 /// The choices of each field that has some, for the message when something else stands there.
 pub(crate) const CHOICES: &[(&str, &[&str])] = &[
     ("space", &["Space", "Plane"]),
-    ("law", &["Repulsion"]),
+    ("law", &["Repulsion", "SpringDashpot"]),
+    ("constants", &["FromTimeStep", "FromRestitution", "Given"]),
+    ("tension", &["NoPull", "AsPrinted"]),
+    ("slip", &["Total", "AsPrinted"]),
+    ("normal_force", &["Closed", "Incremental"]),
+    ("turbulence", &["Off", "Switched"]),
+    ("datum", &["Renewed", "Frozen", "Given"]),
+    ("coarse_drag", &["ByVolume"]),
     ("stiffness", &["YoungModulus", "Energy"]),
     ("damping", &["Equal", "Parts"]),
     ("softened_damping", &["Kept", "Scaled", "NormalScaled"]),
@@ -101,6 +122,7 @@ pub(crate) struct RawScene {
     pub initial: RawInitial,
     pub outlets: Option<Vec<RawOutlet>>,
     pub inlets: Option<Vec<RawInlet>>,
+    pub water: Option<RawWater>,
     pub still: Option<RawStill>,
     pub time: RawTime,
     pub neighbours: Option<RawNeighbours>,
@@ -134,6 +156,14 @@ pub(crate) enum RawLaw {
     Repulsion {
         stiffness: RawStiffness,
         damping: RawDamping,
+    },
+    SpringDashpot {
+        constants: RawSpringConstants,
+        poisson: Option<Number>,
+        friction: Number,
+        tension: Option<RawTension>,
+        slip: Option<RawSlip>,
+        normal_force: Option<RawNormalForce>,
     },
 }
 
@@ -194,6 +224,7 @@ pub(crate) struct RawInitial {
     pub file: Option<String>,
     pub fill: Option<RawFill>,
     pub grains: Option<Vec<RawGrain>>,
+    pub bed: Option<RawBed>,
 }
 
 #[derive(Deserialize)]
@@ -288,6 +319,13 @@ mod tests {
         let read = [
             accepted::<RawSpace>(),
             accepted::<RawLaw>(),
+            accepted::<RawSpringConstants>(),
+            accepted::<RawTension>(),
+            accepted::<RawSlip>(),
+            accepted::<RawNormalForce>(),
+            accepted::<RawTurbulence>(),
+            accepted::<RawDatum>(),
+            accepted::<river::RawCoarseDrag>(),
             accepted::<RawStiffness>(),
             accepted::<RawDamping>(),
             accepted::<RawSoftenedDamping>(),

@@ -1,6 +1,7 @@
 //! A checked scene back as text, every default filled in, every quantity in SI.
 
 mod flow;
+mod river;
 mod walls;
 
 use std::fmt::Write;
@@ -59,6 +60,9 @@ impl Scene {
         writeln!(out, "    ],")?;
         self.initial.write_to(out)?;
         self.write_flow(out)?;
+        if let Some(water) = &self.water {
+            water.write_to(out)?;
+        }
         if let Some(still) = &self.still {
             let for_at_least = quantity(Dimension::Time, still.for_at_least);
             let at_most = quantity(Dimension::Time, still.at_most);
@@ -94,27 +98,9 @@ impl Scene {
 
 impl Grains {
     fn write_to(&self, out: &mut String) -> std::fmt::Result {
-        let Law::Repulsion { stiffness, damping } = &self.law;
-        let stiffness = match stiffness {
-            Stiffness::YoungModulus(modulus) => {
-                format!("YoungModulus({})", quantity(Dimension::Pressure, *modulus))
-            }
-            Stiffness::Energy { epsilon, sigma } => {
-                format!(
-                    "Energy(epsilon: {}, sigma: {})",
-                    quantity(Dimension::Energy, *epsilon),
-                    quantity(Dimension::Length, *sigma)
-                )
-            }
-        };
-        let gamma = |value: f64| quantity(Dimension::Damping, value);
-        let damping = match damping {
-            Damping::Equal(both) => format!("Equal({})", gamma(*both)),
-            Damping::Parts { normal, tangential } => format!(
-                "Parts(normal: {}, tangential: {})",
-                gamma(*normal),
-                gamma(*tangential)
-            ),
+        let (law, softens) = match &self.law {
+            Law::Repulsion { stiffness, damping } => (repulsion(stiffness, damping), true),
+            Law::SpringDashpot(law) => (river::springs(law), false),
         };
         writeln!(out, "    grains: (")?;
         writeln!(
@@ -128,20 +114,44 @@ impl Grains {
             quantity(Dimension::Mass, self.mass),
             self.density()
         )?;
-        writeln!(
-            out,
-            "        law: Repulsion(stiffness: {stiffness}, damping: {damping}),"
-        )?;
-        writeln!(out, "        soften: {:?},", self.soften)?;
-        writeln!(
-            out,
-            "        softened_damping: {:?},",
-            self.softened_damping
-        )?;
+        writeln!(out, "        law: {law},")?;
+        if softens {
+            writeln!(out, "        soften: {:?},", self.soften)?;
+            writeln!(
+                out,
+                "        softened_damping: {:?},",
+                self.softened_damping
+            )?;
+        }
         writeln!(out, "        coarse: {},", self.coarse)?;
         writeln!(out, "        coarse_rule: {:?},", self.coarse_rule)?;
         writeln!(out, "    ),")
     }
+}
+
+fn repulsion(stiffness: &Stiffness, damping: &Damping) -> String {
+    let stiffness = match stiffness {
+        Stiffness::YoungModulus(modulus) => {
+            format!("YoungModulus({})", quantity(Dimension::Pressure, *modulus))
+        }
+        Stiffness::Energy { epsilon, sigma } => {
+            format!(
+                "Energy(epsilon: {}, sigma: {})",
+                quantity(Dimension::Energy, *epsilon),
+                quantity(Dimension::Length, *sigma)
+            )
+        }
+    };
+    let gamma = |value: f64| quantity(Dimension::Damping, value);
+    let damping = match damping {
+        Damping::Equal(both) => format!("Equal({})", gamma(*both)),
+        Damping::Parts { normal, tangential } => format!(
+            "Parts(normal: {}, tangential: {})",
+            gamma(*normal),
+            gamma(*tangential)
+        ),
+    };
+    format!("Repulsion(stiffness: {stiffness}, damping: {damping})")
 }
 
 impl Initial {
@@ -152,6 +162,7 @@ impl Initial {
                 writeln!(out, "        file: {},", text(&path.display().to_string()))?
             }
             Initial::Fill(fill) => fill.write_to(out)?,
+            Initial::Bed(bed) => bed.write_to(out)?,
             Initial::Grains(grains) => {
                 writeln!(out, "        grains: [")?;
                 for StartingGrain { at, velocity } in grains {

@@ -2,6 +2,7 @@
 
 mod flow;
 mod motion;
+mod river;
 mod wall;
 
 use std::f64::consts::PI;
@@ -11,6 +12,10 @@ use glam::DVec3;
 
 pub use flow::{Conveying, Fate, Inlet, Measures, Outlet, Region};
 pub use motion::{Begin, Course, Motion, Shift, Turn};
+pub use river::{
+    Bed, BedMeasure, Datum, Flow, FlowProfile, NormalForce, Slip, SpringConstants, SpringDashpot,
+    Tension, Turbulence, Water,
+};
 pub use wall::{Hand, MeshFile, MeshSurface, Removal, Shape, Thin, TouchesAt, Wall};
 
 /// A scene that has passed every check of this crate; all numbers are SI.
@@ -34,6 +39,8 @@ pub struct Scene {
     pub outlets: Vec<Outlet>,
     /// Where grains come in, in the order of the file.
     pub inlets: Vec<Inlet>,
+    /// The water over the bed, if there is any.
+    pub water: Option<Water>,
     /// When the grains count as still; present exactly when a wall waits for it, to be removed or to move.
     pub still: Option<Still>,
     /// The step, the scheme and the end.
@@ -102,6 +109,8 @@ pub enum Law {
         /// How a contact damps.
         damping: Damping,
     },
+    /// Springs and dashpots with friction, for grains that spin.
+    SpringDashpot(SpringDashpot),
 }
 
 /// The stiffness of law `Repulsion`.
@@ -184,6 +193,8 @@ pub enum Initial {
     File(PathBuf),
     /// Placed at random in a box or in a mesh.
     Fill(Fill),
+    /// A bed on a fixed row.
+    Bed(Bed),
     /// Listed in the scene.
     Grains(Vec<StartingGrain>),
 }

@@ -6,13 +6,13 @@ use crate::grain_file::GrainFile;
 use crate::scene::{Initial, StartingGrain};
 
 impl Checked {
-    /// The grains listed in the scene or read from its file; `None` if they are to be placed by a [`Fill`](crate::Fill).
+    /// The grains listed in the scene or read from its file; `None` if they are to be placed by a [`Fill`](crate::Fill) or a [`Bed`](crate::Bed).
     ///
     /// # Errors
     /// At `initial.file` when the file cannot be read, and at the file's own line and column when its content is wrong.
     pub fn starting_grains(&self) -> Result<Option<Vec<StartingGrain>>, SceneError> {
         match &self.scene.initial {
-            Initial::Fill(_) => Ok(None),
+            Initial::Fill(_) | Initial::Bed(_) => Ok(None),
             Initial::Grains(grains) => Ok(Some(grains.clone())),
             Initial::File(path) => {
                 if !path.is_file() {

@@ -33,6 +33,8 @@ pub enum Dimension {
     Acceleration,
     /// In J.
     Energy,
+    /// In N/m.
+    Stiffness,
     /// In kg/s, a force per velocity.
     Damping,
     /// In rad.
@@ -101,6 +103,9 @@ const UNITS: &[Unit] = &[
     unit(Energy, "uJ", 1.0, -6),
     unit(Energy, "nJ", 1.0, -9),
     unit(Energy, "N m", 1.0, 0),
+    unit(Stiffness, "N/m", 1.0, 0),
+    unit(Stiffness, "kN/m", 1.0, 3),
+    unit(Stiffness, "mN/m", 1.0, -3),
     unit(Damping, "kg/s", 1.0, 0),
     unit(Damping, "g/s", 1.0, -3),
     unit(Damping, "N s/m", 1.0, 0),
@@ -139,6 +144,7 @@ impl Dimension {
             Velocity => ("a velocity", "0.5 m/s"),
             Acceleration => ("an acceleration", "9.80665 m/s2"),
             Energy => ("an energy", "0.0943 J"),
+            Stiffness => ("a stiffness", "1000 N/m"),
             Damping => ("a damping coefficient", "0.1257 kg/s"),
             Angle => ("an angle", "30 deg"),
             AngularVelocity => ("an angular velocity", "100 rpm"),

@@ -60,7 +60,9 @@ fn values_are_replaced() {
     let stiff = good(&["grains.law.stiffness=YoungModulus(\"1 GPa\")"])
         .grains
         .law;
-    let tsubu_scene::Law::Repulsion { stiffness, .. } = stiff;
+    let tsubu_scene::Law::Repulsion { stiffness, .. } = stiff else {
+        panic!("another law");
+    };
     assert_eq!(stiffness, tsubu_scene::Stiffness::YoungModulus(1e9));
 }
 

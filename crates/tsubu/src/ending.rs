@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tsubu::assemble::{Plan, Simulation, Stop};
 use tsubu::engine::Health;
+use tsubu::model::Reading;
 use tsubu::record::{RunFolder, Summary};
 use tsubu::scene::Scene;
 
@@ -80,40 +81,7 @@ pub fn words(
 ) -> String {
     let report = run.report();
     let find = |name: &str| report.iter().find(|r| r.name == name);
-    let give =
-        |u: Option<f64>, digits: usize| u.map_or(String::new(), |u| format!(" ± {u:.digits$}"));
-    let result = if let Some(rate) = find("mass_rate") {
-        let theory = find("ratio_to_theory").map_or(String::new(), |ratio| {
-            format!(
-                ", {:.3}{} of theory for a full screw (a = 1)",
-                ratio.value,
-                give(ratio.uncertainty, 3)
-            )
-        });
-        let steady = match find("steady") {
-            Some(steady) if steady.value > 0.5 => "",
-            _ => "; the rate was not steady yet: run longer with --until",
-        };
-        format!(
-            "Mass rate {:.3}{} kg/s{theory}{steady}.",
-            rate.value,
-            give(rate.uncertainty, 3)
-        )
-    } else {
-        match (find("angle_of_repose"), run.released_at()) {
-            (Some(angle), Some(released)) if angle.value.is_finite() => format!(
-                "Angle of repose {:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
-                angle.value,
-                give(angle.uncertainty, 1),
-                run.time() - released
-            ),
-            _ => format!(
-                "{} grains, {:.4} s of simulated time.",
-                run.grains(),
-                run.time()
-            ),
-        }
-    };
+    let result = result(run, &find);
     let mut text = format!(
         "{result}\n{:.1} s of wall time, {:.1} million grain-steps/s on {} thread{}; results in {}",
         spent.wall.as_secs_f64(),
@@ -128,18 +96,77 @@ pub fn words(
     if let Some(figure) = figures.first() {
         text += &format!("\n  figure     {}", figure.display());
     }
-    // A level up is sixteen times cheaper, a level down sixteen times dearer.
-    let level = plan.constants.lambda.log2().round() as u32;
-    let next = match find("mass_rate") {
-        Some(_) => level + 1,
-        None if level > 2 => 2,
-        None => 3,
+    let next = if find("transport").is_some() {
+        "water.shields=0.2".to_owned()
+    } else {
+        // A level up is sixteen times cheaper, a level down sixteen times dearer.
+        let level = plan.constants.lambda.log2().round() as u32;
+        let next = match find("mass_rate") {
+            Some(_) => level + 1,
+            None if level > 2 => 2,
+            None => 3,
+        };
+        format!("grains.coarse={next}")
     };
     text += &format!(
-        "\nNext, try:  tsubu run {} --set grains.coarse={next}",
+        "\nNext, try:  tsubu run {} --set {next}",
         scene_file.display()
     );
     text
+}
+
+/// The result in one sentence, with its error and beside the theory if there is one.
+fn result<'r>(run: &dyn Simulation, find: &dyn Fn(&str) -> Option<&'r Reading>) -> String {
+    let give =
+        |u: Option<f64>, digits: usize| u.map_or(String::new(), |u| format!(" ± {u:.digits$}"));
+    if let Some(rate) = find("mass_rate") {
+        let theory = find("ratio_to_theory").map_or(String::new(), |ratio| {
+            format!(
+                ", {:.3}{} of theory for a full screw (a = 1)",
+                ratio.value,
+                give(ratio.uncertainty, 3)
+            )
+        });
+        let steady = match find("steady") {
+            Some(steady) if steady.value > 0.5 => "",
+            _ => "; the rate was not steady yet: run longer with --until",
+        };
+        return format!(
+            "Mass rate {:.3}{} kg/s{theory}{steady}.",
+            rate.value,
+            give(rate.uncertainty, 3)
+        );
+    }
+    if let Some(transport) = find("transport").filter(|transport| transport.value.is_finite()) {
+        let shields = find("shields").map_or(f64::NAN, |shields| shields.value);
+        let beside = find("ratio_to_meyer_peter_mueller")
+            .filter(|ratio| ratio.value.is_finite())
+            .map_or(String::new(), |ratio| {
+                format!(
+                    ", {:.2}{} of Meyer-Peter and Müller's",
+                    ratio.value,
+                    give(ratio.uncertainty, 2)
+                )
+            });
+        return format!(
+            "Transport qB* = {:.3}{} at a Shields number of {shields:.3}{beside}.",
+            transport.value,
+            give(transport.uncertainty, 3)
+        );
+    }
+    match (find("angle_of_repose"), run.released_at()) {
+        (Some(angle), Some(released)) if angle.value.is_finite() => format!(
+            "Angle of repose {:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
+            angle.value,
+            give(angle.uncertainty, 1),
+            run.time() - released
+        ),
+        _ => format!(
+            "{} grains, {:.4} s of simulated time.",
+            run.grains(),
+            run.time()
+        ),
+    }
 }
 
 /// What to tell when the physics failed.
@@ -159,6 +186,17 @@ pub fn failure(stop: &Stop, plan: &Plan) -> String {
         } => format!(
             "the grains were not still after {time:.3} s: kinetic energy per grain is {agitation:.2e} of m g d, the scene asks for {asked:.2e}\n\
              help: raise still.kinetic_energy or still.at_most"
+        ),
+        Stop::NoBed { time } => format!(
+            "the water found no bed at t = {time:.3} s: no grain has as many contacts as it asks for\n\
+             help: let the grains settle longer before it begins (water.begins), lower water.bed_contacts, or give water.datum"
+        ),
+        Stop::UnstablePacking { time, used } => format!(
+            "the step of {:.3e} s is over the limit of this packing: at t = {time:.3} s its stiffest motion uses {:.0} % of what the scheme bears\n\
+             help: use a step below {:.3e} s (time.step), or --allow-unstable to see it fail",
+            plan.constants.dt,
+            100.0 * used,
+            plan.constants.dt / used
         ),
         Stop::Trouble(Health::Runaway {
             grain,

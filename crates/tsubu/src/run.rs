@@ -145,6 +145,8 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     let ended = match &stop {
         Some(Stop::Over) => "over",
         Some(Stop::NeverStill { .. }) => "never still",
+        Some(Stop::NoBed { .. }) => "no bed",
+        Some(Stop::UnstablePacking { .. }) => "unstable step",
         Some(Stop::Trouble(_)) => "trouble",
         None => "stopped by a signal",
     };

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::RawRegion;
+use super::{RawBedMeasure, RawRegion};
 use crate::quantity::{Length, Number, Pair, Quantity, Triple, Whole};
 
 #[derive(Deserialize)]
@@ -36,6 +36,7 @@ pub(crate) struct RawInlet {
 #[serde(deny_unknown_fields, rename = "measures")]
 pub(crate) struct RawMeasures {
     pub conveying: Option<RawConveying>,
+    pub bed: Option<RawBedMeasure>,
 }
 
 #[derive(Deserialize)]

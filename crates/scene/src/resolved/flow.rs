@@ -33,8 +33,10 @@ impl Scene {
     }
 
     pub(super) fn write_measures(&self, out: &mut String) -> Result {
+        let bed = self.measures.bed;
+        let bed = bed.map_or(String::new(), |bed| format!("bed: (skip: {:?})", bed.skip));
         let Some(conveying) = &self.measures.conveying else {
-            return writeln!(out, "    measures: (),");
+            return writeln!(out, "    measures: ({bed}),");
         };
         // The names that the numbers of a checked scene stand for.
         let screw = self.walls.get(conveying.screw).map(|wall| &wall.name);
@@ -46,7 +48,7 @@ impl Scene {
             }
         }
         conveying.write_to(out)?;
-        writeln!(out, "        ),\n    ),")
+        writeln!(out, "        ),\n        {bed}\n    ),")
     }
 }
 

@@ -1,6 +1,7 @@
 //! The rules of grains and their law.
 
 use super::Rules;
+use super::river::Readings;
 use crate::raw::{RawCoarseRule, RawDamping, RawGrains, RawLaw, RawSoftenedDamping, RawStiffness};
 use crate::scene::{CoarseRule, Damping, Grains, Law, SoftenedDamping, Stiffness};
 
@@ -37,6 +38,13 @@ impl Rules<'_> {
                 "the stiffness is divided by it: 100 makes grains 100 times softer, 1 leaves them",
             );
         }
+        if matches!(raw.law, RawLaw::SpringDashpot { .. }) && raw.softened_damping.is_some() {
+            self.refuse(
+                "grains.softened_damping",
+                "law SpringDashpot is not softened, so this would be ignored",
+                "remove it",
+            );
+        }
         let coarse = raw.coarse.map_or(0, |coarse| coarse.0);
         if coarse > 8 {
             self.refuse(
@@ -65,7 +73,26 @@ impl Rules<'_> {
     }
 
     fn law(&mut self, raw: &RawLaw, diameter: f64) -> Law {
-        let RawLaw::Repulsion { stiffness, damping } = raw;
+        let (stiffness, damping) = match raw {
+            RawLaw::Repulsion { stiffness, damping } => (stiffness, damping),
+            RawLaw::SpringDashpot {
+                constants,
+                poisson,
+                friction,
+                tension,
+                slip,
+                normal_force,
+            } => {
+                let readings = Readings {
+                    poisson: poisson.map(|nu| nu.0),
+                    friction: friction.0,
+                    tension,
+                    slip,
+                    normal_force,
+                };
+                return self.springs(constants, &readings);
+            }
+        };
         let stiffness = match stiffness {
             RawStiffness::YoungModulus(modulus) => Stiffness::YoungModulus(self.above_zero(
                 "grains.law.stiffness[0]",

@@ -11,13 +11,18 @@ impl Rules<'_> {
     pub(super) fn initial(&mut self, raw: RawInitial, domain: &Domain) -> Option<Initial> {
         self.exactly_one(
             "initial",
-            &[raw.file.is_some(), raw.fill.is_some(), raw.grains.is_some()],
+            &[
+                raw.file.is_some(),
+                raw.fill.is_some(),
+                raw.grains.is_some(),
+                raw.bed.is_some(),
+            ],
         );
         match (raw.file, raw.fill, raw.grains) {
             (Some(file), _, _) => Some(Initial::File(self.file("initial.file", "grain", &file))),
             (None, Some(fill), _) => Some(Initial::Fill(self.fill(&fill, domain))),
             (None, None, Some(grains)) => Some(Initial::Grains(self.listed(&grains))),
-            (None, None, None) => None,
+            (None, None, None) => raw.bed.map(|bed| Initial::Bed(self.bed(&bed, domain))),
         }
     }
 

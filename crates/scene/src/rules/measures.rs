@@ -17,6 +17,7 @@ impl Rules<'_> {
                 .conveying
                 .as_ref()
                 .map(|raw| self.conveying(raw, walls, outlets, domain)),
+            bed: None,
         }
     }
 

@@ -5,6 +5,7 @@ mod grains;
 mod initial;
 mod measures;
 mod motion;
+mod river;
 mod room;
 mod shapes;
 mod time;
@@ -68,6 +69,7 @@ impl<'a> Rules<'a> {
             raw.inlets.unwrap_or_default(),
             &domain,
         );
+        let water = raw.water.as_ref().and_then(|water| self.water(water));
         let still = raw.still.map(|still| self.still(&still));
         let time = self.time(&raw.time);
         let skin = raw
@@ -81,9 +83,12 @@ impl<'a> Rules<'a> {
                 "it is a share of the grain's diameter, usually 0.05 to 0.3",
             );
         }
+        let bed = raw.measures.as_ref().and_then(|measures| measures.bed);
+        let bed = self.bed_measure(&bed, water.is_some());
         let measures = raw.measures.map_or(Measures::default(), |measures| {
             self.measures(&measures, &walls, &outlets, &domain)
         });
+        let measures = Measures { bed, ..measures };
         let output = raw
             .output
             .map_or(Output::default(), |output| self.output(&output));
@@ -97,6 +102,7 @@ impl<'a> Rules<'a> {
             initial: initial?,
             outlets,
             inlets,
+            water,
             still,
             time: time?,
             skin,
@@ -104,6 +110,7 @@ impl<'a> Rules<'a> {
             output,
         };
         self.stillness(&scene);
+        self.river(&scene);
         Some(scene)
     }
 

@@ -1,6 +1,6 @@
 //! Grains that come and go, and what is measured of their flow.
 
-use super::{Axis, Domain, Wall};
+use super::{Axis, BedMeasure, Domain, Wall};
 use glam::DVec3;
 
 /// A box along the axes.
@@ -59,6 +59,8 @@ pub struct Inlet {
 pub struct Measures {
     /// How a screw conveys.
     pub conveying: Option<Conveying>,
+    /// How the transport of a bed is averaged; present exactly when there is water.
+    pub bed: Option<BedMeasure>,
 }
 
 /// What the measures of a screw conveyor need to know of it.

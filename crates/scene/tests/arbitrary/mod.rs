@@ -1,11 +1,13 @@
 //! Scenes of every kind that pass the checks.
 
 mod flow;
+mod river;
 mod walls;
 
 use flow::{conveying, fitting, flow};
 use glam::DVec3;
 use proptest::prelude::*;
+use river::{flooded, river};
 use tsubu_scene::*;
 use walls::{mesh_file, waits, wall};
 
@@ -160,14 +162,16 @@ pub fn scene() -> impl Strategy<Value = Scene> {
         grains(),
         proptest::option::of(1e-3_f64..=1.0),
         parts,
+        proptest::option::weighted(0.3, river()),
     )
-        .prop_map(|(title, gravity, grains, skin, parts)| {
+        .prop_map(|(title, gravity, grains, skin, parts, river)| {
             let (mut walls, (outlets, inlets), conveying, initial, time, output) = parts;
             for (i, wall) in walls.iter_mut().enumerate() {
                 wall.name = format!("wall {i}");
             }
             let measures = Measures {
                 conveying: conveying.and_then(|measure| fitting(measure, &walls, outlets.len())),
+                bed: None,
             };
             let still = walls.iter().any(waits).then_some(Still {
                 kinetic_energy: 1e-4,
@@ -176,7 +180,7 @@ pub fn scene() -> impl Strategy<Value = Scene> {
                 damping: 0.5,
             });
             let (space, domain) = (Space::Space, Domain::default());
-            Scene {
+            let scene = Scene {
                 title,
                 space,
                 gravity,
@@ -186,11 +190,16 @@ pub fn scene() -> impl Strategy<Value = Scene> {
                 initial,
                 outlets,
                 inlets,
+                water: None,
                 still,
                 time,
                 skin,
                 measures,
                 output,
+            };
+            match river {
+                Some(river) => flooded(scene, river),
+                None => scene,
             }
         })
 }
