@@ -11,10 +11,15 @@ struct Shipped {
     files: &'static [(&'static str, &'static [u8])],
 }
 
-const SCENES: [Shipped; 4] = [
+const SCENES: [Shipped; 5] = [
     Shipped {
         name: "angle_of_repose",
         text: include_str!("../../../scenarios/angle_of_repose.ron"),
+        files: &[],
+    },
+    Shipped {
+        name: "movable_bed",
+        text: include_str!("../../../scenarios/movable_bed.ron"),
         files: &[],
     },
     Shipped {

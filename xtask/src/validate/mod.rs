@@ -2,9 +2,11 @@
 //!
 //! A suite is one row of [`SUITES`] and one module with a function that fills a [`Report`].
 
+mod bedload;
 mod check;
 mod coarsen;
 mod collision;
+mod kept;
 mod lab;
 mod report;
 mod repose;
@@ -65,12 +67,21 @@ const SUITES: &[Suite] = &[
         speed: MANY_GRAINS,
         run: screw::run,
     },
+    Suite {
+        name: "bedload",
+        about: "paper B's law and water: collisions, rolling, thresholds, transport of a movable bed",
+        full_grain_steps: bedload::FULL_GRAIN_STEPS,
+        speed: SMALL_BEDS,
+        run: bedload::run,
+    },
 ];
 
 /// Many suites step a handful of grains at a time, where the cost is that of the step and not of the grain.
 const FEW_GRAINS: f64 = 1.5e7;
 /// One grain on a mesh, where most of the time goes into making grids.
 const ONE_GRAIN_ON_A_MESH: f64 = 1.0e5;
+/// Beds of some hundred grains that turn, two side by side.
+const SMALL_BEDS: f64 = 1.2e7;
 /// Heaps, two side by side.
 const MANY_GRAINS: f64 = 4.0e7;
 

@@ -1,8 +1,8 @@
 //! The feeder with the paper's 200 000 grains at 100 r/min, on two threads: about two hours.
 
 use super::TUBE;
-use super::kept::Measured;
 use super::runs::Case;
+use crate::validate::kept::Measured;
 use crate::validate::report::Report;
 use crate::validate::scenes::changed;
 use std::path::Path;

@@ -5,8 +5,8 @@
 //! repeat with it.
 
 use super::TUBE;
-use super::kept::Measured;
 use super::runs::{Case, Kind};
+use crate::validate::kept::Measured;
 use crate::validate::report::Report;
 use tsubu_picture::Figure;
 

@@ -2,8 +2,8 @@
 
 use super::TUBE;
 use super::cost::{Way, take_turns};
-use super::kept::Measured;
 use super::runs::{Case, Kind};
+use crate::validate::kept::Measured;
 use crate::validate::report::Report;
 use std::path::Path;
 use tsubu_picture::Figure;

@@ -4,10 +4,10 @@
 //! 0.57, 1.14 and 2.3 d'. The section says what that does to the flow alone: it has no hopper that may starve the
 //! screw, and holds the same mass of grains at every level.
 
-use super::kept::{self, Measured};
 use super::levels::levels;
 use super::section::{CASING, DENSITY, Found, PITCH, Rung, SCENE, SHAFT, most, per_turn};
 use crate::validate::check::Tolerance;
+use crate::validate::kept::{self, Measured};
 use crate::validate::report::Report;
 use crate::validate::scenes::changed;
 use rayon::prelude::*;

@@ -1,7 +1,7 @@
 //! What the levels say together: the order in λ, a straight line to the real grain, figures.
 
-use super::kept::Measured;
 use super::section::{Found, most};
+use crate::validate::kept::Measured;
 use crate::validate::report::Report;
 use tsubu_picture::Figure;
 

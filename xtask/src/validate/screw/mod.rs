@@ -7,7 +7,6 @@
 mod cost;
 mod full;
 mod grains;
-mod kept;
 mod kinds;
 mod ladder;
 mod levels;
@@ -16,8 +15,8 @@ mod runs;
 mod section;
 
 use super::check::Tolerance;
+use super::kept::Measured;
 use super::report::Report;
-use kept::Measured;
 use rayon::prelude::*;
 use runs::{Case, Kind, fingerprint};
 use tsubu_picture::Figure;

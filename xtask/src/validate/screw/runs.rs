@@ -2,7 +2,7 @@
 //!
 //! The bed is settled once for each level and started from file; a finished run is kept ([`super::kept`]).
 
-use super::kept::{self, Flow, Measured};
+use crate::validate::kept::{self, Flow, Measured};
 use crate::validate::scenes::{
     build_on_one_thread, changed, from_places, keep, places, until_released,
 };

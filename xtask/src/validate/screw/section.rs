@@ -6,7 +6,7 @@
 //! pitch and t the thickness of the flight; C(0) = 1.22. Both readings are given the same share of that room, because the
 //! same mass does not fit: at n = 4 it would take a solid fraction of 0.56 of the room, where the hopper's bed has 0.52.
 
-use super::kept::Measured;
+use crate::validate::kept::Measured;
 use crate::validate::scenes::changed;
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Runs of a screw whose results are kept in `target/validate/screw/`, so that the long version can be stopped and
+//! Runs whose results are kept under `target/validate/`, so that the long version can be stopped and
 //! taken up again. The name of a file holds a fingerprint of the physics, so a change of the code, of the scene or of
 //! its meshes starts anew.
 
@@ -6,7 +6,11 @@ use crate::validate::scenes::{build_on, build_on_one_thread, keep, places, until
 use std::fmt::Write as _;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
+use tsubu_assemble::{Built, Choices, Simulation, build};
 use tsubu_scene::Source;
+
+/// Seconds of simulated time between two looks.
+const LOOK: f64 = 0.01;
 
 /// What a run measured: name, value, uncertainty (NaN if there is none).
 #[derive(Clone, Debug)]
@@ -41,10 +45,25 @@ impl Measured {
         flow: Option<&Flow>,
         threads: usize,
     ) -> Result<Self, String> {
+        Self::of_built(build_on(source, threads)?, file, flow, LOOK)
+    }
+
+    /// The same without release and flow on one thread, looking so often, also where the step is over its limit.
+    pub fn of_unstable_run(source: &Source, file: &Path, look: f64) -> Result<Self, String> {
+        let choices = Choices {
+            threads: Some(1),
+            allow_unstable: true,
+            ..Choices::default()
+        };
+        let checked = source.check().map_err(|e| e.to_string())?;
+        let built = build(&checked, &choices).map_err(|e| e.to_string())?;
+        Self::of_built(built, file, None, look)
+    }
+
+    fn of_built(built: Built, file: &Path, flow: Option<&Flow>, look: f64) -> Result<Self, String> {
         let name = file.display();
-        let built = build_on(source, threads)?;
         let (mut run, dt) = (built.simulation, built.plan.constants.dt);
-        let each = (0.01 / dt).round() as u64;
+        let each = (look / dt).round() as u64;
         run.look();
         while !run.is_over() {
             let to_look = each - run.steps() % each;
@@ -103,6 +122,11 @@ pub fn fingerprint(source: &Source) -> Result<u64, String> {
         run.advance(400);
         run.look();
     }
+    Ok(bits_of(&mut *run))
+}
+
+/// The bits of a run as it is, and of what is measured of it.
+pub fn bits_of(run: &mut dyn Simulation) -> u64 {
     let mut hasher = DefaultHasher::new();
     for (x, v) in run.state() {
         for value in x.to_array().into_iter().chain(v.to_array()) {
@@ -112,5 +136,5 @@ pub fn fingerprint(source: &Source) -> Result<u64, String> {
     for reading in run.look().into_iter().chain(run.report()) {
         reading.value.to_bits().hash(&mut hasher);
     }
-    Ok(hasher.finish())
+    hasher.finish()
 }
