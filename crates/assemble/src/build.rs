@@ -161,7 +161,13 @@ fn in_dimension<D: Shaped + Slices>(
                     parts.run::<Spins, _, _, _, NoTally>(OneKind([kind]), *law, settling, walls)
                 }
                 Some(fixed) => {
-                    let kinds = ManyKinds(vec![kind, fixed]);
+                    // The order that `bed` counts on: sizes, or the one kind, and the fixed row last.
+                    let mut kinds = constants.sizes.clone();
+                    if kinds.is_empty() {
+                        kinds.push(kind);
+                    }
+                    kinds.push(fixed);
+                    let kinds = ManyKinds(kinds);
                     parts.run::<Spins, _, _, _, NoTally>(kinds, *law, settling, walls)
                 }
             }

@@ -16,6 +16,8 @@ use tsubu_scene::{Checked, SceneError};
 pub struct Constants {
     /// The grain.
     pub kind: Kind,
+    /// The kinds of a mixture in the order of the scene's sizes; empty for one size. `kind` is the largest.
+    pub sizes: Vec<Kind>,
     /// Grains that no force moves, of a bed's fixed row; `None` if there are none.
     pub fixed: Option<Kind>,
     /// The laws.
@@ -120,8 +122,20 @@ impl Constants {
             sources.extend(new);
         }
         let bed = matches!(scene.initial, scene::Initial::Bed(_));
+        if !bed && !grains.sizes.is_empty() {
+            return Err(checked.problem(
+                "grains.sizes",
+                "only a bed is made of several sizes yet",
+                "write initial: (bed: …), or leave out sizes",
+            ));
+        }
+        let sizes = grains.sizes.iter();
+        let sizes = sizes
+            .map(|size| springs::of_size(checked, size.diameter))
+            .collect::<Result<_, _>>()?;
         Ok(Self {
             kind,
+            sizes,
             fixed: bed.then_some(Kind {
                 mass: f64::INFINITY,
                 inertia: f64::INFINITY,

@@ -82,7 +82,7 @@ fn bed_load_of<D: Dim>(
         begins: water.begins,
         skip: wanted.skip,
         moving_speed: 0.1 * (clear.submerged_gravity(&sand).ok()? * sand.diameter).sqrt(),
-        sizes: Vec::new(),
+        sizes: scene.grains.sizes.iter().map(|s| s.diameter).collect(),
     }))
 }
 

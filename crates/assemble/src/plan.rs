@@ -301,7 +301,11 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
             }
         },
         format!(
-            "grains: one kind, d = {:.4} mm, m = {:.4e} kg{}",
+            "grains: {}, d = {:.4} mm, m = {:.4e} kg{}",
+            match constants.sizes.len() {
+                0 => "one kind".to_owned(),
+                sizes => format!("{sizes} sizes, the largest"),
+            },
             constants.kind.diameter() * 1e3,
             constants.kind.mass,
             if scene.grains.coarse > 0 {
@@ -440,8 +444,8 @@ fn not_modelled(scene: &Scene) -> Vec<String> {
         tsubu_scene::Law::SpringDashpot(_) => vec![
             "resistance to rolling".to_owned(),
             match scene.water {
-                Some(_) => "lift, the grains' effect on the water, air, cohesion, breakage, grains of several sizes",
-                None => "water, air, cohesion, breakage, grains of several sizes",
+                Some(_) => "lift, the grains' effect on the water, air, cohesion, breakage",
+                None => "water, air, cohesion, breakage",
             }
             .to_owned(),
         ],

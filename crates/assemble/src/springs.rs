@@ -24,14 +24,23 @@ pub(crate) fn sediment(grains: &scene::Grains) -> Sediment {
     }
 }
 
-/// The grain at n = 0: dry, or with added mass and its weight under water.
+/// The largest grain at n = 0: dry, or with added mass and its weight under water.
 pub(crate) fn grain(checked: &Checked) -> Result<Kind, SceneError> {
+    of_size(checked, checked.scene.grains.diameter)
+}
+
+/// A grain of the scene's material at this diameter in m.
+pub(crate) fn of_size(checked: &Checked, diameter: f64) -> Result<Kind, SceneError> {
     let scene = &checked.scene;
     let grains = &scene.grains;
+    let share = diameter / grains.diameter;
     match &scene.water {
-        None => Ok(Kind::with_mass(grains.diameter, grains.mass)),
+        None => Ok(Kind::with_mass(diameter, grains.mass * share.powi(3))),
         Some(water) => clear_water(water, scene.gravity)
-            .grain(&sediment(grains))
+            .grain(&Sediment {
+                diameter,
+                ..sediment(grains)
+            })
             .map_err(|e| checked.problem("water", e.to_string(), "change the water or the grains")),
     }
 }

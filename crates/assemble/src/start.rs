@@ -45,7 +45,7 @@ pub(crate) fn grains<D: Dim>(
                 .collect()
         }
         None => match &checked.scene.initial {
-            Initial::Bed(wanted) => bed::<D>(wanted, diameter, domain),
+            Initial::Bed(wanted) => bed::<D>(wanted, diameter, &checked.scene.grains.sizes, domain),
             _ => filled(checked, diameter, domain, surfaces)?,
         },
     };

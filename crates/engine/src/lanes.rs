@@ -12,7 +12,7 @@ use crate::kinds::KindSet;
 use crate::line::{Layout, Line};
 use crate::pass::{Job, Out, chunk_forces};
 use crate::world::Tally;
-use tsubu_model::{ContactLaw, SpinState};
+use tsubu_model::{ContactLaw, Numbers, SpinState};
 use tsubu_neighbors::LANES;
 
 /// Which vector instructions the force loop uses. All give the same bits.
@@ -136,7 +136,12 @@ mod x86 {
         L: ContactLaw<D, S>,
         T: Tally,
     {
-        chunk_forces::<D, S, K, L, T, Avx512, 16>(job, out)
+        // A law with memory fills the registers with one block.
+        if const { <L::Memory as Numbers>::N > 0 } {
+            chunk_forces::<D, S, K, L, T, Avx512, 8>(job, out)
+        } else {
+            chunk_forces::<D, S, K, L, T, Avx512, 16>(job, out)
+        }
     }
 
     /// SAFETY: the machine must have AVX2.

@@ -53,8 +53,8 @@ pub use grain_file::GrainFile;
 pub use scene::{
     Axis, Bed, BedMeasure, Begin, CoarseRule, Conveying, Course, Damping, Datum, Domain, End, Fate,
     Fill, Flow, FlowProfile, Grains, Hand, Initial, Inlet, Integrator, Law, Measures, MeshFile,
-    MeshSurface, Motion, NormalForce, Outlet, Output, Region, Removal, Scene, Shape, Shift, Slip,
-    SoftenedDamping, Space, SpringConstants, SpringDashpot, StartingGrain, Step, Stiffness, Still,
-    Tension, Thin, Time, TouchesAt, Turbulence, Turn, Wall, Water,
+    MeshSurface, Motion, NormalForce, Outlet, Output, Region, Removal, Scene, Shape, Shift, Size,
+    Slip, SoftenedDamping, Space, SpringConstants, SpringDashpot, StartingGrain, Step, Stiffness,
+    Still, Tension, Thin, Time, TouchesAt, Turbulence, Turn, Wall, Water,
 };
 pub use source::Source;

@@ -41,6 +41,10 @@ pub(crate) struct Triple<T>(pub [T; 3]);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair<T>(pub [T; 2]);
 
+/// Two values of different dimensions as `(a, b)` or `[a, b]`: a row of a table.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Row<A, B>(pub A, pub B);
+
 /// A finite number without dimension.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Number(pub f64);
@@ -200,6 +204,37 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Pair<T> {
             item: PhantomData,
         };
         reader.deserialize_any(visitor).map(Pair)
+    }
+}
+
+impl<'de, A: Deserialize<'de>, B: Deserialize<'de>> Deserialize<'de> for Row<A, B> {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        reader.deserialize_any(TableRowVisitor(PhantomData))
+    }
+}
+
+struct TableRowVisitor<A, B>(PhantomData<(A, B)>);
+
+impl<'de, A: Deserialize<'de>, B: Deserialize<'de>> Visitor<'de> for TableRowVisitor<A, B> {
+    type Value = Row<A, B>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a row of two values (a, b)")
+    }
+
+    fn visit_seq<I: SeqAccess<'de>>(self, mut items: I) -> Result<Row<A, B>, I::Error> {
+        let wrong = |count: &str| {
+            I::Error::custom(two_lines(
+                format!("too {count} values: a row has two"),
+                "write both in brackets, parted by a comma",
+            ))
+        };
+        let first = items.next_element()?.ok_or_else(|| wrong("few"))?;
+        let second = items.next_element()?.ok_or_else(|| wrong("few"))?;
+        if items.next_element::<B>()?.is_some() {
+            return Err(wrong("many"));
+        }
+        Ok(Row(first, second))
     }
 }
 

@@ -3,25 +3,24 @@
 //! The names of the types are what `ron` puts into its messages.
 
 mod flow;
-mod river;
+mod grains;
 mod wall;
+mod water;
 
 use serde::Deserialize;
 
-pub(crate) use flow::{RawConveying, RawFate, RawInlet, RawMeasures, RawOutlet};
-pub(crate) use river::{
-    RawBed, RawBedMeasure, RawDatum, RawNormalForce, RawSlip, RawSpringConstants, RawTension,
-    RawTurbulence, RawWater,
+pub(crate) use flow::{RawBedMeasure, RawConveying, RawFate, RawInlet, RawMeasures, RawOutlet};
+pub(crate) use grains::{
+    RawCoarseRule, RawConstants, RawDamping, RawGrains, RawLaw, RawNormalForce, RawSize, RawSlip,
+    RawSoftenedDamping, RawStiffness, RawTension,
 };
 pub(crate) use wall::{
     MESH_UNITS, MeshUnit, RawBegin, RawHand, RawMeshFile, RawMotion, RawRemoval, RawShape,
     RawShift, RawSurface, RawThin, RawTouchesAt, RawTurn, RawWall,
 };
+pub(crate) use water::{RawDatum, RawTurbulence, RawWater};
 
-use crate::quantity::{
-    Acceleration, Damping, Density, Energy, Length, Mass, Number, Pressure, Quantity, Time, Triple,
-    Velocity, Whole,
-};
+use crate::quantity::{Acceleration, Length, Number, Quantity, Time, Triple, Velocity, Whole};
 
 /// Fields of the whole scene that no inner block has: they give an unclosed bracket away.
 pub(crate) const TOP: &[&str] = &[
@@ -60,13 +59,10 @@ pub(crate) const ONE_OF: &[(&str, &[&str])] = &[
 pub(crate) const CHOICES: &[(&str, &[&str])] = &[
     ("space", &["Space", "Plane"]),
     ("law", &["Repulsion", "SpringDashpot"]),
-    ("constants", &["FromTimeStep", "FromRestitution", "Given"]),
+    ("constants", &["FromTimeStep", "Given", "FromRestitution"]),
     ("tension", &["NoPull", "AsPrinted"]),
     ("slip", &["Total", "AsPrinted"]),
     ("normal_force", &["Closed", "Incremental"]),
-    ("turbulence", &["Off", "Switched"]),
-    ("datum", &["Renewed", "Frozen", "Given"]),
-    ("coarse_drag", &["ByVolume"]),
     ("stiffness", &["YoungModulus", "Energy"]),
     ("damping", &["Equal", "Parts"]),
     ("softened_damping", &["Kept", "Scaled", "NormalScaled"]),
@@ -97,6 +93,9 @@ pub(crate) const CHOICES: &[(&str, &[&str])] = &[
     ("removed", &["Never", "WhenStill", "At"]),
     ("begins", &["WhenStill", "At"]),
     ("then", &["Delete", "Recycle"]),
+    ("turbulence", &["Off", "Switched"]),
+    ("datum", &["Renewed", "Frozen", "Given"]),
+    ("coarse_drag", &["ByVolume"]),
     ("step", &["PerPeriod", "Seconds", "Exactly"]),
     (
         "integrator",
@@ -135,72 +134,6 @@ pub(crate) struct RawScene {
 pub(crate) enum RawSpace {
     Space,
     Plane,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "grains")]
-pub(crate) struct RawGrains {
-    pub diameter: Quantity<Length>,
-    pub density: Option<Quantity<Density>>,
-    pub mass: Option<Quantity<Mass>>,
-    pub law: RawLaw,
-    pub soften: Option<Number>,
-    pub softened_damping: Option<RawSoftenedDamping>,
-    pub coarse: Option<Whole>,
-    pub coarse_rule: Option<RawCoarseRule>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "law")]
-pub(crate) enum RawLaw {
-    Repulsion {
-        stiffness: RawStiffness,
-        damping: RawDamping,
-    },
-    SpringDashpot {
-        constants: RawSpringConstants,
-        poisson: Option<Number>,
-        friction: Number,
-        tension: Option<RawTension>,
-        slip: Option<RawSlip>,
-        normal_force: Option<RawNormalForce>,
-    },
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "stiffness")]
-pub(crate) enum RawStiffness {
-    YoungModulus(Quantity<Pressure>),
-    Energy {
-        epsilon: Quantity<Energy>,
-        sigma: Quantity<Length>,
-    },
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "damping")]
-pub(crate) enum RawDamping {
-    Equal(Quantity<Damping>),
-    Parts {
-        normal: Quantity<Damping>,
-        tangential: Quantity<Damping>,
-    },
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename = "softened_damping")]
-pub(crate) enum RawSoftenedDamping {
-    Kept,
-    Scaled,
-    NormalScaled,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename = "coarse_rule")]
-pub(crate) enum RawCoarseRule {
-    Renormalised,
-    SakaiKoshizuka,
-    RadlRestitution,
 }
 
 #[derive(Deserialize)]
@@ -248,6 +181,16 @@ pub(crate) struct RawRegion {
 pub(crate) struct RawGrain {
     pub at: Triple<Quantity<Length>>,
     pub velocity: Option<Triple<Quantity<Velocity>>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "bed")]
+pub(crate) struct RawBed {
+    pub layers: Whole,
+    pub spacing: Option<Number>,
+    pub vacancies: Option<Number>,
+    pub roughness: Option<Number>,
+    pub seed: Option<Whole>,
 }
 
 #[derive(Deserialize)]
@@ -319,13 +262,10 @@ mod tests {
         let read = [
             accepted::<RawSpace>(),
             accepted::<RawLaw>(),
-            accepted::<RawSpringConstants>(),
+            accepted::<RawConstants>(),
             accepted::<RawTension>(),
             accepted::<RawSlip>(),
             accepted::<RawNormalForce>(),
-            accepted::<RawTurbulence>(),
-            accepted::<RawDatum>(),
-            accepted::<river::RawCoarseDrag>(),
             accepted::<RawStiffness>(),
             accepted::<RawDamping>(),
             accepted::<RawSoftenedDamping>(),
@@ -341,6 +281,9 @@ mod tests {
             accepted::<RawRemoval>(),
             accepted::<RawBegin>(),
             accepted::<RawFate>(),
+            accepted::<RawTurbulence>(),
+            accepted::<RawDatum>(),
+            accepted::<water::RawCoarseDrag>(),
             accepted::<RawStep>(),
             accepted::<RawIntegrator>(),
         ];

@@ -1,8 +1,9 @@
 //! A checked scene back as text, every default filled in, every quantity in SI.
 
 mod flow;
-mod river;
+mod grains;
 mod walls;
+mod water;
 
 use std::fmt::Write;
 
@@ -10,8 +11,8 @@ use glam::DVec3;
 
 use crate::raw::MESH_UNITS;
 use crate::scene::{
-    Axis, Damping, End, Fill, Grains, Initial, Integrator, Law, MeshFile, Output, Region, Scene,
-    Space, StartingGrain, Step, Stiffness,
+    Axis, Bed, End, Fill, Initial, Integrator, MeshFile, Output, Region, Scene, Space,
+    StartingGrain, Step,
 };
 use crate::units::{Dimension, write};
 
@@ -96,64 +97,6 @@ impl Scene {
     }
 }
 
-impl Grains {
-    fn write_to(&self, out: &mut String) -> std::fmt::Result {
-        let (law, softens) = match &self.law {
-            Law::Repulsion { stiffness, damping } => (repulsion(stiffness, damping), true),
-            Law::SpringDashpot(law) => (river::springs(law), false),
-        };
-        writeln!(out, "    grains: (")?;
-        writeln!(
-            out,
-            "        diameter: {},",
-            quantity(Dimension::Length, self.diameter)
-        )?;
-        writeln!(
-            out,
-            "        mass: {}, // {:.6} kg/m3",
-            quantity(Dimension::Mass, self.mass),
-            self.density()
-        )?;
-        writeln!(out, "        law: {law},")?;
-        if softens {
-            writeln!(out, "        soften: {:?},", self.soften)?;
-            writeln!(
-                out,
-                "        softened_damping: {:?},",
-                self.softened_damping
-            )?;
-        }
-        writeln!(out, "        coarse: {},", self.coarse)?;
-        writeln!(out, "        coarse_rule: {:?},", self.coarse_rule)?;
-        writeln!(out, "    ),")
-    }
-}
-
-fn repulsion(stiffness: &Stiffness, damping: &Damping) -> String {
-    let stiffness = match stiffness {
-        Stiffness::YoungModulus(modulus) => {
-            format!("YoungModulus({})", quantity(Dimension::Pressure, *modulus))
-        }
-        Stiffness::Energy { epsilon, sigma } => {
-            format!(
-                "Energy(epsilon: {}, sigma: {})",
-                quantity(Dimension::Energy, *epsilon),
-                quantity(Dimension::Length, *sigma)
-            )
-        }
-    };
-    let gamma = |value: f64| quantity(Dimension::Damping, value);
-    let damping = match damping {
-        Damping::Equal(both) => format!("Equal({})", gamma(*both)),
-        Damping::Parts { normal, tangential } => format!(
-            "Parts(normal: {}, tangential: {})",
-            gamma(*normal),
-            gamma(*tangential)
-        ),
-    };
-    format!("Repulsion(stiffness: {stiffness}, damping: {damping})")
-}
-
 impl Initial {
     fn write_to(&self, out: &mut String) -> std::fmt::Result {
         writeln!(out, "    initial: (")?;
@@ -176,6 +119,18 @@ impl Initial {
             }
         }
         writeln!(out, "    ),")
+    }
+}
+
+impl Bed {
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        writeln!(out, "        bed: (")?;
+        writeln!(out, "            layers: {},", self.layers)?;
+        writeln!(out, "            spacing: {:?},", self.spacing)?;
+        writeln!(out, "            vacancies: {:?},", self.vacancies)?;
+        writeln!(out, "            roughness: {:?},", self.roughness)?;
+        writeln!(out, "            seed: {},", self.seed)?;
+        writeln!(out, "        ),")
     }
 }
 

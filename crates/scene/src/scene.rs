@@ -1,22 +1,20 @@
 //! The checked scene: plain SI numbers, every choice an enum, every default filled in.
 
 mod flow;
+mod grains;
+mod initial;
 mod motion;
-mod river;
+mod springs;
 mod wall;
+mod water;
 
-use std::f64::consts::PI;
-use std::path::PathBuf;
-
-use glam::DVec3;
-
-pub use flow::{Conveying, Fate, Inlet, Measures, Outlet, Region};
+pub use flow::{BedMeasure, Conveying, Fate, Inlet, Measures, Outlet, Region};
+pub use grains::{CoarseRule, Damping, Grains, Law, Size, SoftenedDamping, Stiffness};
+pub use initial::{Bed, Fill, Initial, StartingGrain};
 pub use motion::{Begin, Course, Motion, Shift, Turn};
-pub use river::{
-    Bed, BedMeasure, Datum, Flow, FlowProfile, NormalForce, Slip, SpringConstants, SpringDashpot,
-    Tension, Turbulence, Water,
-};
+pub use springs::{NormalForce, Slip, SpringConstants, SpringDashpot, Tension};
 pub use wall::{Hand, MeshFile, MeshSurface, Removal, Shape, Thin, TouchesAt, Wall};
+pub use water::{Datum, Flow, FlowProfile, Turbulence, Water};
 
 /// A scene that has passed every check of this crate; all numbers are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,9 +23,9 @@ pub struct Scene {
     pub title: String,
     /// Space (3D), or the vertical plane of x and z.
     pub space: Space,
-    /// Acceleration of gravity along −z, m/s², not negative.
+    /// Acceleration of gravity, m/s², not negative; along −z but for the slope of the water's bed.
     pub gravity: f64,
-    /// The one kind of grain.
+    /// The grains, all of one material.
     pub grains: Grains,
     /// Which axes are periodic.
     pub domain: Domain,
@@ -39,7 +37,7 @@ pub struct Scene {
     pub outlets: Vec<Outlet>,
     /// Where grains come in, in the order of the file.
     pub inlets: Vec<Inlet>,
-    /// The water over the bed, if there is any.
+    /// The water that flows over the grains, if there is any.
     pub water: Option<Water>,
     /// When the grains count as still; present exactly when a wall waits for it, to be removed or to move.
     pub still: Option<Still>,
@@ -63,108 +61,6 @@ pub enum Space {
     Plane,
 }
 
-/// The grain at coarse level n = 0, and how it is softened and coarsened.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Grains {
-    /// Diameter, m, at n = 0.
-    pub diameter: f64,
-    /// Mass of one grain, kg, at n = 0 (from the density if the scene gives that).
-    pub mass: f64,
-    /// The law between grains, constants at n = 0 and before softening.
-    pub law: Law,
-    /// The stiffness is divided by this, at least 1.
-    pub soften: f64,
-    /// What softening does to the damping.
-    pub softened_damping: SoftenedDamping,
-    /// Number of renormalisations n, at most 8.
-    pub coarse: u32,
-    /// What one renormalisation does to the constants.
-    pub coarse_rule: CoarseRule,
-}
-
-impl Grains {
-    /// Volume of one grain at n = 0, m³.
-    pub fn volume(&self) -> f64 {
-        PI / 6.0 * self.diameter.powi(3)
-    }
-
-    /// Density, kg/m³; the same at every coarse level.
-    pub fn density(&self) -> f64 {
-        self.mass / self.volume()
-    }
-
-    /// λ = 2ⁿ, by which the coarse grain's diameter exceeds the real one's.
-    pub fn lambda(&self) -> f64 {
-        f64::from(1_u32 << self.coarse.min(31))
-    }
-}
-
-/// A contact law with its constants.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Law {
-    /// Lennard-Jones repulsion with viscous damping.
-    Repulsion {
-        /// How stiff a contact is.
-        stiffness: Stiffness,
-        /// How a contact damps.
-        damping: Damping,
-    },
-    /// Springs and dashpots with friction, for grains that spin.
-    SpringDashpot(SpringDashpot),
-}
-
-/// The stiffness of law `Repulsion`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stiffness {
-    /// Young's modulus, Pa; the law derives ε and σ from it and from the diameter.
-    YoungModulus(f64),
-    /// The law's own constants.
-    Energy {
-        /// ε, J.
-        epsilon: f64,
-        /// σ, m; the reach 2^(1/6) σ is the diameter within 1 %.
-        sigma: f64,
-    },
-}
-
-/// Viscous damping coefficients of a contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Damping {
-    /// γ in every direction, kg/s.
-    Equal(f64),
-    /// γ along and across the line of centres, kg/s.
-    Parts {
-        /// γn, kg/s.
-        normal: f64,
-        /// γt, kg/s.
-        tangential: f64,
-    },
-}
-
-/// What softening the stiffness by s does to the damping.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SoftenedDamping {
-    /// Nothing: creep stays as it is, the damping ratio grows by √s.
-    #[default]
-    Kept,
-    /// Both parts are divided by √s: the restitution stays as it is, creep runs √s faster.
-    Scaled,
-    /// The normal part is divided by √s, the tangential part kept.
-    NormalScaled,
-}
-
-/// The rule of coarse-graining.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum CoarseRule {
-    /// The renormalisation of the paper: ε λ³, σ λ, γ λ², Δt λ.
-    #[default]
-    Renormalised,
-    /// Sakai and Koshizuka: stiffness and damping λ³, Δt not enlarged.
-    SakaiKoshizuka,
-    /// Radl's corrected restitution.
-    RadlRestitution,
-}
-
 /// The periodic axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Domain {
@@ -184,66 +80,6 @@ pub enum Axis {
     Open,
     /// Repeating; runs from 0 to this length, m.
     Periodic(f64),
-}
-
-/// Where the grains are at the start.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Initial {
-    /// Read from this file (an absolute path), see [`GrainFile`](crate::GrainFile).
-    File(PathBuf),
-    /// Placed at random in a box or in a mesh.
-    Fill(Fill),
-    /// A bed on a fixed row.
-    Bed(Bed),
-    /// Listed in the scene.
-    Grains(Vec<StartingGrain>),
-}
-
-/// Room to be filled with grains at random: a box, the inside of a mesh, or what both have in common.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Fill {
-    /// The box; `None` only with a mesh: the box around it.
-    pub region: Option<Region>,
-    /// Grains are only placed inside this closed mesh; `None`: anywhere in the box.
-    pub within: Option<MeshFile>,
-    /// Share of that room (in the plane: of its area) taken by grains.
-    pub solid_fraction: f64,
-    /// Seed of the random places.
-    pub seed: u64,
-}
-
-impl Fill {
-    /// Number of grains of this diameter (m) that the fill asks for in its box, see [`count_in`](Fill::count_in).
-    /// Without a box it is 0: the room inside the mesh is known only once the mesh is read.
-    pub fn count(&self, diameter: f64, space: Space) -> usize {
-        let size = self
-            .region
-            .map_or(DVec3::ZERO, |region| region.max - region.min);
-        let room = match space {
-            Space::Space => size.x * size.y * size.z,
-            Space::Plane => size.x * size.z,
-        };
-        self.count_in(room, diameter, space)
-    }
-
-    /// Number of grains of this diameter (m) that the fill asks for in so much room (m³, in the plane m²),
-    /// rounded to the nearest; huge rooms saturate.
-    pub fn count_in(&self, room: f64, diameter: f64, space: Space) -> usize {
-        let grain = match space {
-            Space::Space => PI / 6.0 * diameter.powi(3),
-            Space::Plane => PI / 4.0 * diameter.powi(2),
-        };
-        (self.solid_fraction * (room / grain)).round() as usize
-    }
-}
-
-/// A grain at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StartingGrain {
-    /// Its centre, m.
-    pub at: DVec3,
-    /// Its velocity, m/s.
-    pub velocity: DVec3,
 }
 
 /// When the grains count as still.

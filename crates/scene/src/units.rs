@@ -106,6 +106,7 @@ const UNITS: &[Unit] = &[
     unit(Stiffness, "N/m", 1.0, 0),
     unit(Stiffness, "kN/m", 1.0, 3),
     unit(Stiffness, "mN/m", 1.0, -3),
+    unit(Stiffness, "N/mm", 1.0, 3),
     unit(Damping, "kg/s", 1.0, 0),
     unit(Damping, "g/s", 1.0, -3),
     unit(Damping, "N s/m", 1.0, 0),
@@ -327,6 +328,9 @@ mod tests {
             (Density, "2.65 g/cm³", 2650.0),
             (Damping, "1 N·s/m", 1.0),
             (Damping, "1 Ns/m", 1.0),
+            (Stiffness, "0.2 N/m", 0.2),
+            (Stiffness, "5 mN / m", 0.005),
+            (Stiffness, "2 N/mm", 2000.0),
             (Pressure, "3.096 GPa", 3.096e9),
             (Time, "1.5 min", 90.0),
             (AngularVelocity, "60 rpm", 2.0 * PI),
@@ -365,6 +369,11 @@ mod tests {
                 "“rpm” is an angular velocity, but a frequency is expected here",
             ),
             (AngularVelocity, "60 rmp", "did you mean “rpm”?"),
+            (
+                Stiffness,
+                "1 N/m2",
+                "“N/m2” is a pressure, but a stiffness is expected here",
+            ),
         ] {
             let error = read(dimension, text)
                 .map_or_else(|error| error.to_string(), |value| value.to_string());
@@ -387,7 +396,7 @@ mod tests {
     proptest! {
         #[test]
         fn what_is_written_reads_back(value in proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL | proptest::num::f64::ZERO) {
-            for dimension in [Length, Time, Mass, Density, Pressure, Velocity, Acceleration, Energy, Damping, Angle, AngularVelocity, Frequency] {
+            for dimension in [Length, Time, Mass, Density, Pressure, Velocity, Acceleration, Energy, Stiffness, Damping, Angle, AngularVelocity, Frequency] {
                 prop_assert_eq!(read(dimension, &write(dimension, value)), Ok(value));
             }
         }

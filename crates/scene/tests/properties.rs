@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use tsubu_scene::Source;
 
 const SCENE: &str = include_str!("../../../tests/scenes/good/walls_and_comments.ron");
+const WET: &str = include_str!("../../../tests/scenes/good/river_bed.ron");
 
 /// A text is checked, or refused with a message that can be drawn.
 fn ends_well(source: &Source) {
@@ -33,8 +34,8 @@ proptest! {
 
     /// A good scene with a part cut out, and another text put there.
     #[test]
-    fn a_damaged_scene_ends_well(from in 0_usize..1800, length in 0_usize..40, with in "([(){}\\[\\],:\"1. \n]|None|inf|-1e400|.){0,4}") {
-        let mut signs: Vec<char> = SCENE.chars().collect();
+    fn a_damaged_scene_ends_well(wet: bool, from in 0_usize..1800, length in 0_usize..40, with in "([(){}\\[\\],:\"1. \n]|None|inf|-1e400|.){0,4}") {
+        let mut signs: Vec<char> = if wet { WET } else { SCENE }.chars().collect();
         let from = from.min(signs.len());
         let to = (from + length).min(signs.len());
         signs.splice(from..to, with.chars());
@@ -43,10 +44,11 @@ proptest! {
 
     #[test]
     fn any_override_ends_well(
-        path in "(grains|walls|time|initial|title|still|outlets|measures|x)((\\.|\\[)(coarse|floor|0|name|shape|point|motion|turn|within|file|until|grains|law|\\]){0,3}){0,3}",
+        wet: bool,
+        path in "(grains|walls|time|initial|title|still|outlets|measures|water|x)((\\.|\\[)(coarse|floor|0|name|shape|point|motion|turn|within|file|until|grains|law|constants|sizes|bed|datum|profile|\\]){0,3}){0,3}",
         value in "([(){}\\[\\],:\"/'1. \n]|None|\"2 mm\"|Open|.){0,8}",
     ) {
-        let mut source = Source::from_text("x", SCENE);
+        let mut source = Source::from_text("x", if wet { WET } else { SCENE });
         if source.set(&format!("{path}={value}")).is_ok() {
             ends_well(&source);
         }

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::{RawBedMeasure, RawRegion};
+use super::RawRegion;
 use crate::quantity::{Length, Number, Pair, Quantity, Triple, Whole};
 
 #[derive(Deserialize)]
@@ -50,4 +50,10 @@ pub(crate) struct RawConveying {
     pub casing: Quantity<Length>,
     pub hopper: Option<RawRegion>,
     pub outlet: Option<String>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename = "bed")]
+pub(crate) struct RawBedMeasure {
+    pub skip: Option<Number>,
 }

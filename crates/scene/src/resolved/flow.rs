@@ -33,22 +33,28 @@ impl Scene {
     }
 
     pub(super) fn write_measures(&self, out: &mut String) -> Result {
-        let bed = self.measures.bed;
-        let bed = bed.map_or(String::new(), |bed| format!("bed: (skip: {:?})", bed.skip));
-        let Some(conveying) = &self.measures.conveying else {
-            return writeln!(out, "    measures: ({bed}),");
-        };
+        writeln!(out, "    measures: (")?;
+        if let Some(bed) = &self.measures.bed {
+            writeln!(out, "        bed: (skip: {:?}),", bed.skip)?;
+        }
+        if let Some(conveying) = &self.measures.conveying {
+            self.write_conveying(conveying, out)?;
+        }
+        writeln!(out, "    ),")
+    }
+
+    fn write_conveying(&self, conveying: &Conveying, out: &mut String) -> Result {
         // The names that the numbers of a checked scene stand for.
         let screw = self.walls.get(conveying.screw).map(|wall| &wall.name);
         let outlet = conveying.outlet.and_then(|number| self.outlets.get(number));
-        writeln!(out, "    measures: (\n        conveying: (")?;
+        writeln!(out, "        conveying: (")?;
         for (field, name) in [("screw", screw), ("outlet", outlet.map(|out| &out.name))] {
             if let Some(name) = name {
                 writeln!(out, "            {field}: {},", text(name))?;
             }
         }
         conveying.write_to(out)?;
-        writeln!(out, "        ),\n        {bed}\n    ),")
+        writeln!(out, "        ),")
     }
 }
 

@@ -1,9 +1,8 @@
-//! The rules of grains and their law.
+//! The rules of grains: sizes and mass, softening and coarsening.
 
 use super::Rules;
-use super::river::Readings;
-use crate::raw::{RawCoarseRule, RawDamping, RawGrains, RawLaw, RawSoftenedDamping, RawStiffness};
-use crate::scene::{CoarseRule, Damping, Grains, Law, SoftenedDamping, Stiffness};
+use crate::raw::{RawCoarseRule, RawGrains, RawSize, RawSoftenedDamping};
+use crate::scene::{CoarseRule, Grains, Size, SoftenedDamping};
 
 impl Rules<'_> {
     pub(super) fn grains(&mut self, raw: RawGrains) -> Option<Grains> {
@@ -30,19 +29,20 @@ impl Rules<'_> {
                 "check the units of the diameter and of this value",
             );
         }
+        if raw.mass.is_some() && raw.density.is_none() && raw.sizes.is_some() {
+            self.refuse(
+                "grains.mass",
+                "grains of several sizes have no one mass",
+                "give their density instead",
+            );
+        }
+        self.softens(&raw);
         let soften = raw.soften.map_or(1.0, |soften| soften.0);
         if soften < 1.0 {
             self.refuse(
                 "grains.soften",
                 "soften is below 1",
                 "the stiffness is divided by it: 100 makes grains 100 times softer, 1 leaves them",
-            );
-        }
-        if matches!(raw.law, RawLaw::SpringDashpot { .. }) && raw.softened_damping.is_some() {
-            self.refuse(
-                "grains.softened_damping",
-                "law SpringDashpot is not softened, so this would be ignored",
-                "remove it",
             );
         }
         let coarse = raw.coarse.map_or(0, |coarse| coarse.0);
@@ -53,9 +53,12 @@ impl Rules<'_> {
                 "each level doubles the diameter: 8 levels already make it 256 times larger",
             );
         }
+        let sizes = raw.sizes.as_deref();
+        let sizes = sizes.map_or(Vec::new(), |sizes| self.sizes(sizes, diameter, coarse));
         Some(Grains {
             diameter,
             mass,
+            sizes,
             law: self.law(&raw.law, diameter),
             soften,
             softened_damping: match raw.softened_damping {
@@ -72,66 +75,89 @@ impl Rules<'_> {
         })
     }
 
-    fn law(&mut self, raw: &RawLaw, diameter: f64) -> Law {
-        let (stiffness, damping) = match raw {
-            RawLaw::Repulsion { stiffness, damping } => (stiffness, damping),
-            RawLaw::SpringDashpot {
-                constants,
-                poisson,
-                friction,
-                tension,
-                slip,
-                normal_force,
-            } => {
-                let readings = Readings {
-                    poisson: poisson.map(|nu| nu.0),
-                    friction: friction.0,
-                    tension,
-                    slip,
-                    normal_force,
-                };
-                return self.springs(constants, &readings);
+    /// Refuses to soften a law whose stiffness is chosen as it is.
+    fn softens(&mut self, raw: &RawGrains) {
+        for (field, given) in [
+            ("soften", raw.soften.is_some()),
+            ("softened_damping", raw.softened_damping.is_some()),
+        ] {
+            if given && self.springs {
+                self.refuse(
+                    format!("grains.{field}"),
+                    format!("law SpringDashpot is not softened, so {field} would be ignored"),
+                    "remove it, and soften by beta in FromTimeStep or by a smaller stiffness",
+                );
             }
-        };
-        let stiffness = match stiffness {
-            RawStiffness::YoungModulus(modulus) => Stiffness::YoungModulus(self.above_zero(
-                "grains.law.stiffness[0]",
-                "Young's modulus",
-                modulus.0,
-            )),
-            RawStiffness::Energy { epsilon, sigma } => {
-                let epsilon = self.above_zero("grains.law.stiffness.epsilon", "epsilon", epsilon.0);
-                let sigma = self.above_zero("grains.law.stiffness.sigma", "sigma", sigma.0);
-                let fitting = diameter / 2_f64.powf(1.0 / 6.0);
-                if sigma > 0.0 && diameter > 0.0 && (sigma / fitting - 1.0).abs() > 0.01 {
-                    let what =
-                        "the law's reach 2^(1/6) sigma is not the grain's diameter (within 1 %)";
-                    self.refuse(
-                        "grains.law.stiffness.sigma",
-                        what,
-                        format!("sigma: \"{fitting:.4e} m\" fits the diameter"),
-                    );
-                }
-                Stiffness::Energy { epsilon, sigma }
+        }
+    }
+
+    fn sizes(&mut self, raw: &[RawSize], largest: f64, coarse: u64) -> Vec<Size> {
+        if !self.springs {
+            self.refuse(
+                "grains.sizes",
+                "only grains of the law SpringDashpot come in several sizes",
+                "remove sizes, or choose law: SpringDashpot(…)",
+            );
+        }
+        if coarse > 0 {
+            self.refuse(
+                "grains.coarse",
+                "grains of several sizes cannot be coarsened",
+                "write coarse: 0, or remove sizes",
+            );
+        }
+        let mut sizes: Vec<Size> = Vec::with_capacity(raw.len());
+        for (i, raw) in raw.iter().enumerate() {
+            let path = |field: &str| format!("grains.sizes[{i}].{field}");
+            let size = Size {
+                diameter: self.above_zero(&path("diameter"), "the diameter", raw.diameter.0),
+                share: self.above_zero(&path("share"), "the share", raw.share.0),
+            };
+            if sizes.iter().any(|other| other.diameter == size.diameter) {
+                self.refuse(
+                    path("diameter"),
+                    "two sizes have the same diameter",
+                    "write it once, with the sum of the shares",
+                );
             }
-        };
-        let damping = match damping {
-            RawDamping::Equal(both) => {
-                Damping::Equal(self.not_negative("grains.law.damping[0]", "the damping", both.0))
+            if size.diameter > largest {
+                self.refuse(
+                    path("diameter"),
+                    "this size is larger than the diameter of the grains",
+                    "grains.diameter is that of the largest size",
+                );
             }
-            RawDamping::Parts { normal, tangential } => Damping::Parts {
-                normal: self.not_negative(
-                    "grains.law.damping.normal",
-                    "the normal damping",
-                    normal.0,
-                ),
-                tangential: self.not_negative(
-                    "grains.law.damping.tangential",
-                    "the tangential damping",
-                    tangential.0,
-                ),
-            },
-        };
-        Law::Repulsion { stiffness, damping }
+            sizes.push(size);
+        }
+        self.whole(&sizes, largest);
+        sizes
+    }
+
+    /// Refuses sizes that together are no mixture.
+    fn whole(&mut self, sizes: &[Size], largest: f64) {
+        if sizes.is_empty() {
+            self.refuse(
+                "grains.sizes",
+                "the list of sizes is empty",
+                "list (diameter: …, share: …) for each size, or remove it for grains of one size",
+            );
+            return;
+        }
+        if sizes.iter().all(|size| size.diameter < largest) {
+            self.refuse(
+                "grains.sizes",
+                "no size has the diameter of the grains",
+                "grains.diameter is that of the largest size: write the same there and here",
+            );
+        }
+        let sum: f64 = sizes.iter().map(|size| size.share).sum();
+        if (sum - 1.0).abs() > 1e-6 {
+            let sum = (sum * 1e7).round() / 1e7;
+            self.refuse(
+                "grains.sizes",
+                format!("the shares of the sizes add up to {sum}, not to 1"),
+                "they are shares of the mass of all grains",
+            );
+        }
     }
 }

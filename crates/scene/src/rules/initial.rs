@@ -4,11 +4,20 @@ use glam::DVec3;
 
 use super::Rules;
 use super::vectors::lengths;
-use crate::raw::{RawFill, RawGrain, RawInitial};
-use crate::scene::{Domain, Fill, Initial, Space, StartingGrain};
+use crate::quantity::Number;
+use crate::raw::{RawBed, RawFill, RawGrain, RawInitial};
+use crate::scene::{Axis, Bed, Domain, Fill, Grains, Initial, Space, StartingGrain};
+
+/// The most layers of a bed; more is a slip of the pen.
+const LAYERS: u64 = 10_000;
 
 impl Rules<'_> {
-    pub(super) fn initial(&mut self, raw: RawInitial, domain: &Domain) -> Option<Initial> {
+    pub(super) fn initial(
+        &mut self,
+        raw: RawInitial,
+        domain: &Domain,
+        gravity: f64,
+    ) -> Option<Initial> {
         self.exactly_one(
             "initial",
             &[
@@ -22,7 +31,11 @@ impl Rules<'_> {
             (Some(file), _, _) => Some(Initial::File(self.file("initial.file", "grain", &file))),
             (None, Some(fill), _) => Some(Initial::Fill(self.fill(&fill, domain))),
             (None, None, Some(grains)) => Some(Initial::Grains(self.listed(&grains))),
-            (None, None, None) => raw.bed.map(|bed| Initial::Bed(self.bed(&bed, domain))),
+            (None, None, None) => {
+                let bed = raw.bed?;
+                self.bed_fits(domain, gravity);
+                Some(Initial::Bed(self.bed(&bed)))
+            }
         }
     }
 
@@ -81,5 +94,99 @@ impl Rules<'_> {
             StartingGrain { at, velocity }
         };
         raw.iter().enumerate().map(grain).collect()
+    }
+
+    fn bed(&mut self, raw: &RawBed) -> Bed {
+        let layers = raw.layers.0;
+        if layers == 0 {
+            self.refuse(
+                "initial.bed.layers",
+                "a bed needs at least one layer above its fixed row",
+                "write their number, such as 10",
+            );
+        }
+        if layers > LAYERS {
+            self.refuse(
+                "initial.bed.layers",
+                format!("a bed has at most {LAYERS} layers"),
+                "write a smaller number of layers",
+            );
+        }
+        let number = |raw: &Option<Number>, usual: f64| raw.as_ref().map_or(usual, |raw| raw.0);
+        let vacancies = self.not_negative(
+            "initial.bed.vacancies",
+            "the share of vacancies",
+            number(&raw.vacancies, 0.1),
+        );
+        if vacancies > 0.5 {
+            self.refuse(
+                "initial.bed.vacancies",
+                "the share of vacancies is above the usable share of 0.5",
+                "with more than half of its places empty a layer is none: write fewer layers for a thinner bed; 0.1 is usual",
+            );
+        }
+        Bed {
+            layers: layers.min(LAYERS) as usize,
+            spacing: self.within(
+                "initial.bed.spacing",
+                "the spacing",
+                number(&raw.spacing, 1.07),
+                [1.0, 2.0],
+                "it is the distance of the lattice in diameters: below 1 the grains would overlap; 1.05 to 1.10 are usual",
+            ),
+            vacancies,
+            roughness: self.within(
+                "initial.bed.roughness",
+                "the roughness",
+                number(&raw.roughness, 1.0 / 3.0),
+                [0.0, 1.0],
+                "it is the standard deviation of the heights of the fixed row in diameters; 0.333 is usual",
+            ),
+            seed: raw.seed.map_or(1, |seed| seed.0),
+        }
+    }
+
+    /// What a bed asks of the rest of the scene.
+    fn bed_fits(&mut self, domain: &Domain, gravity: f64) {
+        if !self.springs {
+            self.refuse(
+                "initial.bed",
+                "a bed needs grains that hold by friction: those of law SpringDashpot",
+                "choose law: SpringDashpot(…), or start from a fill",
+            );
+        }
+        for (name, axis) in [("x", domain.x), ("y", domain.y)] {
+            let there = name == "x" || self.space == Space::Space;
+            if there && axis == Axis::Open {
+                self.refuse(
+                    "initial.bed",
+                    format!("a bed has no sides, but the axis {name} does not repeat"),
+                    format!("write {name}: Periodic(\"…\") in the domain"),
+                );
+            }
+        }
+        if gravity == 0.0 {
+            self.refuse(
+                "gravity",
+                "a bed falls together under gravity, but there is none",
+                "give gravity a value, or start from a fill",
+            );
+        }
+    }
+
+    /// Grains of several sizes are drawn by the program: a file and a list name one diameter.
+    pub(super) fn sizes_are_drawn(&mut self, grains: &Grains, initial: &Initial) {
+        let from = match initial {
+            Initial::File(_) => "a file",
+            Initial::Grains(_) => "a list",
+            Initial::Fill(_) | Initial::Bed(_) => return,
+        };
+        if !grains.sizes.is_empty() {
+            self.refuse(
+                "grains.sizes",
+                format!("grains from {from} have one size, so sizes would be ignored"),
+                "remove sizes, or start from a bed",
+            );
+        }
     }
 }

@@ -1,24 +1,47 @@
 //! The rules of the measures that a scene asks for.
 
 use super::Rules;
-use crate::raw::{RawConveying, RawMeasures};
-use crate::scene::{Conveying, Domain, Measures, Outlet, Shape, Space, Wall};
+use crate::raw::{RawBedMeasure, RawConveying, RawMeasures};
+use crate::scene::{BedMeasure, Conveying, Domain, Measures, Outlet, Shape, Space, Wall};
+
+/// Share of the flow's time that is dropped when the scene does not say.
+const SKIP: f64 = 0.25;
 
 impl Rules<'_> {
     pub(super) fn measures(
         &mut self,
-        raw: &RawMeasures,
+        raw: Option<&RawMeasures>,
         walls: &[Wall],
         outlets: &[Outlet],
         domain: &Domain,
+        water: bool,
     ) -> Measures {
+        let conveying = raw.and_then(|raw| raw.conveying.as_ref());
+        let bed = raw.and_then(|raw| raw.bed);
         Measures {
-            conveying: raw
-                .conveying
-                .as_ref()
-                .map(|raw| self.conveying(raw, walls, outlets, domain)),
-            bed: None,
+            conveying: conveying.map(|raw| self.conveying(raw, walls, outlets, domain)),
+            bed: self.bed_measure(bed, water),
         }
+    }
+
+    /// Where water flows its transport is measured, asked for or not.
+    fn bed_measure(&mut self, raw: Option<RawBedMeasure>, water: bool) -> Option<BedMeasure> {
+        if raw.is_some() && !water {
+            self.refuse(
+                "measures.bed",
+                "no water moves a bed here, so this measure would be ignored",
+                "remove it, or add the block “water”",
+            );
+        }
+        let skip = raw.and_then(|raw| raw.skip).map_or(SKIP, |skip| skip.0);
+        if !(0.0..1.0).contains(&skip) {
+            self.refuse(
+                "measures.bed.skip",
+                "skip is outside [0, 1)",
+                "it is the share of the flow's time that is dropped before means are taken; 0.25 is usual",
+            );
+        }
+        water.then_some(BedMeasure { skip })
     }
 
     fn conveying(

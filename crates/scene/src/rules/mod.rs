@@ -3,19 +3,20 @@
 mod flow;
 mod grains;
 mod initial;
+mod law;
 mod measures;
 mod motion;
-mod river;
 mod room;
 mod shapes;
 mod time;
 mod vectors;
 mod walls;
+mod water;
 
 use std::path::{Path, PathBuf};
 
-use crate::raw::{ONE_OF, RawScene, RawSpace};
-use crate::scene::{Domain, Measures, Output, Scene, Space};
+use crate::raw::{ONE_OF, RawLaw, RawScene, RawSpace};
+use crate::scene::{Domain, Output, Scene, Space};
 
 /// A rule that a scene breaks, at the field of a path.
 pub(crate) struct Refusal {
@@ -29,6 +30,8 @@ pub(crate) struct Rules<'a> {
     /// The folder that relative paths start from.
     folder: &'a Path,
     space: Space,
+    /// Whether the grains' law is `SpringDashpot`.
+    springs: bool,
     pub refusals: Vec<Refusal>,
 }
 
@@ -40,6 +43,7 @@ impl<'a> Rules<'a> {
         Rules {
             folder,
             space: Space::Space,
+            springs: false,
             refusals: Vec::new(),
         }
     }
@@ -50,6 +54,7 @@ impl<'a> Rules<'a> {
             None | Some(RawSpace::Space) => Space::Space,
             Some(RawSpace::Plane) => Space::Plane,
         };
+        self.springs = matches!(raw.grains.law, RawLaw::SpringDashpot { .. });
         let gravity = raw.gravity.map_or(GRAVITY, |gravity| gravity.0);
         if gravity < 0.0 {
             self.refuse(
@@ -63,13 +68,20 @@ impl<'a> Rules<'a> {
             .domain
             .map_or(Domain::default(), |domain| self.domain(domain, gravity));
         let walls = self.walls(raw.walls.unwrap_or_default(), &domain);
-        let initial = self.initial(raw.initial, &domain);
+        let initial = self.initial(raw.initial, &domain, gravity);
         let (outlets, inlets) = self.flow(
             raw.outlets.unwrap_or_default(),
             raw.inlets.unwrap_or_default(),
             &domain,
         );
-        let water = raw.water.as_ref().and_then(|water| self.water(water));
+        if let (Some(grains), Some(initial)) = (&grains, &initial) {
+            self.sizes_are_drawn(grains, initial);
+        }
+        let watered = raw.water.is_some();
+        let water = raw.water.and_then(|water| {
+            self.water_fits(&water, grains.as_ref(), initial.as_ref());
+            self.water(&water)
+        });
         let still = raw.still.map(|still| self.still(&still));
         let time = self.time(&raw.time);
         let skin = raw
@@ -83,12 +95,8 @@ impl<'a> Rules<'a> {
                 "it is a share of the grain's diameter, usually 0.05 to 0.3",
             );
         }
-        let bed = raw.measures.as_ref().and_then(|measures| measures.bed);
-        let bed = self.bed_measure(&bed, water.is_some());
-        let measures = raw.measures.map_or(Measures::default(), |measures| {
-            self.measures(&measures, &walls, &outlets, &domain)
-        });
-        let measures = Measures { bed, ..measures };
+        let measures = raw.measures.as_ref();
+        let measures = self.measures(measures, &walls, &outlets, &domain, watered);
         let output = raw
             .output
             .map_or(Output::default(), |output| self.output(&output));
@@ -110,7 +118,6 @@ impl<'a> Rules<'a> {
             output,
         };
         self.stillness(&scene);
-        self.river(&scene);
         Some(scene)
     }
 
@@ -158,6 +165,28 @@ impl<'a> Rules<'a> {
                 format!("{name} is negative"),
                 "write zero or a value above",
             );
+        }
+        value
+    }
+
+    /// Refuses a value outside [low, high].
+    fn within(
+        &mut self,
+        path: &str,
+        name: &str,
+        value: f64,
+        [low, high]: [f64; 2],
+        remedy: &str,
+    ) -> f64 {
+        if !(low..=high).contains(&value) {
+            self.refuse(path, format!("{name} is outside [{low}, {high}]"), remedy);
+        }
+        value
+    }
+
+    fn restitution(&mut self, path: &str, value: f64, remedy: &str) -> f64 {
+        if !(value > 0.0 && value <= 1.0) {
+            self.refuse(path, "the restitution is outside (0, 1]", remedy);
         }
         value
     }

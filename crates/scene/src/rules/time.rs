@@ -86,6 +86,17 @@ impl Rules<'_> {
             Some(RawIntegrator::VerletAveraged { .. }) => Integrator::VerletAveraged { sweeps },
             Some(RawIntegrator::DashpotImplicit { .. }) => Integrator::DashpotImplicit { sweeps },
         };
+        let solves = matches!(
+            integrator,
+            Integrator::VerletAveraged { .. } | Integrator::DashpotImplicit { .. }
+        );
+        if solves && self.springs {
+            self.refuse(
+                "time.integrator",
+                "this scheme solves for velocities, not for spins, so it is not for law SpringDashpot",
+                "write SymplecticEuler, VerletOld or ExplicitEuler",
+            );
+        }
         Some(Time {
             step,
             integrator,
@@ -111,6 +122,13 @@ impl Rules<'_> {
                 "output.frames_every",
                 "frames_every would be ignored without frames and animation",
                 "remove it, or write frames: true",
+            );
+        }
+        if output.energies && self.springs {
+            self.refuse(
+                "output.energies",
+                "the energies of springs that slip are not tallied yet: their books are not kept",
+                "write energies: false, or leave it out",
             );
         }
         output

@@ -15,16 +15,14 @@ impl Rules<'_> {
             if shape.wall_grains().is_some() {
                 self.of_grains(&path, &raw);
             }
-            let restitution = raw.restitution.map(|restitution| restitution.0);
-            if restitution.is_some_and(|restitution| !(restitution > 0.0 && restitution <= 1.0)) {
-                let remedy =
-                    "1 returns all the speed; leave the field out for a wall without damping";
-                self.refuse(
-                    format!("{path}.restitution"),
-                    "the restitution is outside (0, 1]",
-                    remedy,
-                );
-            }
+            let remedy = if self.springs {
+                "1 returns all the speed; leave the field out for the grains' own damping"
+            } else {
+                "1 returns all the speed; leave the field out for a wall without damping"
+            };
+            let restitution = raw.restitution.map(|restitution| {
+                self.restitution(&format!("{path}.restitution"), restitution.0, remedy)
+            });
             let friction = raw.friction.map(|friction| {
                 self.not_negative(&format!("{path}.friction"), "the friction", friction.0)
             });
@@ -62,6 +60,13 @@ impl Rules<'_> {
 
     /// Refuses what a body built of grains has not: grains touch it as they touch each other.
     fn of_grains(&mut self, path: &str, raw: &RawWall) {
+        if self.springs {
+            self.refuse(
+                format!("{path}.shape.surface"),
+                "a body built of grains is made for law Repulsion",
+                "choose surface: Grid() or Exact",
+            );
+        }
         for (field, given) in [
             ("restitution", raw.restitution.is_some()),
             ("friction", raw.friction.is_some()),

@@ -1,6 +1,6 @@
 //! Grains that come and go, and what is measured of their flow.
 
-use super::{Axis, BedMeasure, Domain, Wall};
+use super::{Axis, Domain, Wall};
 use glam::DVec3;
 
 /// A box along the axes.
@@ -59,8 +59,15 @@ pub struct Inlet {
 pub struct Measures {
     /// How a screw conveys.
     pub conveying: Option<Conveying>,
-    /// How the transport of a bed is averaged; present exactly when there is water.
+    /// How the transport of a bed is measured; present exactly when there is water.
     pub bed: Option<BedMeasure>,
+}
+
+/// How the transport of a bed is averaged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BedMeasure {
+    /// Share of the time since the water began that is dropped before means are taken, in [0, 1).
+    pub skip: f64,
 }
 
 /// What the measures of a screw conveyor need to know of it.

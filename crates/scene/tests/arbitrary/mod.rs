@@ -1,13 +1,13 @@
 //! Scenes of every kind that pass the checks.
 
 mod flow;
-mod river;
+mod springs;
 mod walls;
 
 use flow::{conveying, fitting, flow};
 use glam::DVec3;
 use proptest::prelude::*;
-use river::{flooded, river};
+use springs::{of_springs, springs};
 use tsubu_scene::*;
 use walls::{mesh_file, waits, wall};
 
@@ -80,6 +80,7 @@ fn grains() -> impl Strategy<Value = Grains> {
                 Grains {
                     diameter,
                     mass,
+                    sizes: Vec::new(),
                     law,
                     soften,
                     softened_damping,
@@ -135,6 +136,13 @@ fn initial() -> impl Strategy<Value = Initial> {
 
 /// A scene that passes every check.
 pub fn scene() -> impl Strategy<Value = Scene> {
+    (repulsion(), proptest::option::of(springs())).prop_map(|(scene, springs)| match springs {
+        Some(springs) => of_springs(scene, springs),
+        None => scene,
+    })
+}
+
+fn repulsion() -> impl Strategy<Value = Scene> {
     let output = (
         proptest::option::of(size()),
         any::<bool>(),
@@ -162,9 +170,8 @@ pub fn scene() -> impl Strategy<Value = Scene> {
         grains(),
         proptest::option::of(1e-3_f64..=1.0),
         parts,
-        proptest::option::weighted(0.3, river()),
     )
-        .prop_map(|(title, gravity, grains, skin, parts, river)| {
+        .prop_map(|(title, gravity, grains, skin, parts)| {
             let (mut walls, (outlets, inlets), conveying, initial, time, output) = parts;
             for (i, wall) in walls.iter_mut().enumerate() {
                 wall.name = format!("wall {i}");
@@ -180,7 +187,7 @@ pub fn scene() -> impl Strategy<Value = Scene> {
                 damping: 0.5,
             });
             let (space, domain) = (Space::Space, Domain::default());
-            let scene = Scene {
+            Scene {
                 title,
                 space,
                 gravity,
@@ -196,10 +203,6 @@ pub fn scene() -> impl Strategy<Value = Scene> {
                 skin,
                 measures,
                 output,
-            };
-            match river {
-                Some(river) => flooded(scene, river),
-                None => scene,
             }
         })
 }

@@ -92,12 +92,13 @@ fn offsets(report: &mut Report, rpm: f64, surface: &Measured, centre: &Measured)
     );
 }
 
-/// Interval of 99.73 % over that of 68.27 % by Student's t, for the mean of so many turns; NaN for fewer than two.
+/// Interval of 99.73 % over that of 68.27 % by Student's t, for the mean of so many turns. A rate that is not steady is the
+/// mean of blocks, eight at least, and has no turns: then 3.
 /// From a table of t: 235.8/1.837, 19.21/1.321, 9.219/1.197, 6.620/1.142, 5.507/1.111, 4.904/1.091, 4.530/1.077.
 fn surely(turns: f64) -> f64 {
     const RATIO: [f64; 7] = [128.4, 14.54, 7.70, 5.80, 4.96, 4.49, 4.21];
     match turns as usize {
-        0 | 1 => f64::NAN,
+        0 | 1 => 3.0,
         turns => RATIO[(turns - 2).min(RATIO.len() - 1)],
     }
 }
