@@ -1,6 +1,6 @@
 //! One run of the feeder after another: the shipped scene with other levels, speeds, stiffnesses and screws.
 //!
-//! The bed is settled once for each level and started from file; a finished run is kept ([`super::kept`]).
+//! The bed is settled once for each level and started from file; a finished run is kept ([`crate::validate::kept`]).
 
 use crate::validate::kept::{self, Flow, Measured};
 use crate::validate::scenes::{
