@@ -96,6 +96,7 @@ where
         }
         self.identity.truncate(kept);
         self.origin.truncate(kept);
+        self.spins.truncate(kept);
         self.lines.truncate(kept);
         self.lines.push(Line::dummy::<D>());
     }
@@ -118,7 +119,7 @@ where
         }
         self.lines.push(Line::dummy::<D>());
         if const { has_second_line::<D, S>() } {
-            self.spins.truncate(self.identity.len());
+            // Who comes does not turn; the last is the dummy's.
             self.spins.resize(self.lines.len(), Line([0.0; 8]));
         }
     }

@@ -339,3 +339,39 @@ fn a_load_pushes_every_grain() {
         );
     }
 }
+
+/// A grain that comes, and one that is put elsewhere, do not turn, whatever those turned whose place in memory they take.
+#[test]
+fn a_grain_that_comes_does_not_turn() {
+    let place = |k: f64| DVec3::X * 3.0 * D * k;
+    let grains = (0..4)
+        .map(|k| at(place(f64::from(k)), DVec3::ZERO))
+        .collect();
+    let mut run: Spinning<Space> = world(&PLAIN, grains, Vec::new());
+    for identity in 0..4 {
+        run.set_spin(identity, DVec3::Y * 100.0);
+    }
+    run.apply(&[
+        Change::Remove {
+            identity: 3,
+            gate: 0,
+        },
+        Change::Move {
+            identity: 1,
+            position: place(20.0),
+            gate: 0,
+        },
+        Change::Add {
+            position: place(30.0),
+            kind: 0,
+            gate: 0,
+        },
+    ]);
+    for (i, identity) in (0..4).map(|i| (i, run.identity(i))) {
+        let expected = match identity {
+            0 | 2 => DVec3::Y * 100.0,
+            _ => DVec3::ZERO,
+        };
+        assert_eq!(run.spin(i), expected, "grain {identity}");
+    }
+}
