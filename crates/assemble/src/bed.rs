@@ -24,11 +24,7 @@ pub(crate) fn bed<D: Dim>(
     sizes: &[Size],
     domain: &Domain<D>,
 ) -> Vec<Placed<D>> {
-    let columns = |axis: usize| {
-        let period = domain.period.axis(axis);
-        let count = (period / (bed.spacing * diameter)).floor().max(1.0);
-        (count as usize, period / count)
-    };
+    let columns = |axis: usize| columns(bed, diameter, domain.period.axis(axis));
     let (nx, dx) = columns(0);
     let (ny, dy) = if D::V::AXES == 3 {
         columns(1)
@@ -81,6 +77,19 @@ pub(crate) fn bed<D: Dim>(
     }
     grains.extend(row.into_iter().map(|x| at(x, sizes.len().max(1))));
     grains
+}
+
+/// Columns along a period, and their distance.
+fn columns(bed: &Bed, diameter: f64, period: f64) -> (usize, f64) {
+    let count = (period / (bed.spacing * diameter)).floor().max(1.0);
+    (count as usize, period / count)
+}
+
+/// How many sites a bed has, the fixed row included.
+pub(crate) fn sites<D: Dim>(bed: &Bed, diameter: f64, domain: &Domain<D>) -> f64 {
+    let level = D::V::AXES - 1;
+    let columns = |axis: usize| columns(bed, diameter, domain.period.axis(axis)).0 as f64;
+    (0..level).map(columns).product::<f64>() * (bed.layers as f64 + 1.0)
 }
 
 /// A size by a number in [0, 1).

@@ -1,6 +1,6 @@
 //! Where the grains are at the start, from a file, a list or a random fill; refused if they overlap.
 
-use crate::bed::bed;
+use crate::bed::{bed, sites};
 use crate::constants::Constants;
 use crate::fill::{Box3, fill};
 use crate::surfaces::read_mesh;
@@ -16,6 +16,9 @@ use tsubu_sdf::{ExactMesh, Winding};
 /// Overlap over the diameter above which a start is refused: a settled bed under its own weight has
 /// some 1e-4; at a hundredth grains of a stiff law would be shot apart.
 const MOST_OVERLAP: f64 = 0.01;
+
+/// Most grains of a scene.
+const MOST_GRAINS: f64 = 2e8;
 
 /// Position and velocity of each grain.
 pub(crate) fn grains<D: Dim>(
@@ -45,13 +48,30 @@ pub(crate) fn grains<D: Dim>(
                 .collect()
         }
         None => match &checked.scene.initial {
-            Initial::Bed(wanted) => bed::<D>(wanted, diameter, &checked.scene.grains.sizes, domain),
+            Initial::Bed(wanted) => {
+                refuse_crowd(
+                    checked,
+                    "initial.bed",
+                    "bed",
+                    sites::<D>(wanted, diameter, domain),
+                )?;
+                bed::<D>(wanted, diameter, &checked.scene.grains.sizes, domain)
+            }
             _ => filled(checked, diameter, domain, surfaces)?,
         },
     };
     refuse_walls(checked, &grains, diameter, surfaces)?;
     refuse_overlaps(checked, &grains, diameter, domain)?;
     Ok(grains)
+}
+
+/// Refuses more grains than memory holds, before any is placed.
+fn refuse_crowd(checked: &Checked, path: &str, kind: &str, count: f64) -> Result<(), SceneError> {
+    if count <= MOST_GRAINS {
+        return Ok(());
+    }
+    let what = format!("the {kind} asks for {count:.0} grains, more than any machine here holds");
+    Err(checked.problem(path, what, "shrink it or raise grains.coarse"))
 }
 
 fn filled<D: Dim>(
@@ -91,14 +111,7 @@ fn filled<D: Dim>(
             "enlarge the region, raise solid_fraction or lower grains.coarse",
         ));
     }
-    if count > 200_000_000 {
-        let what = format!("the fill asks for {count} grains, more than any machine here holds");
-        return Err(checked.problem(
-            "initial.fill",
-            what,
-            "shrink the region or raise grains.coarse",
-        ));
-    }
+    refuse_crowd(checked, "initial.fill", "fill", count as f64)?;
     // Bodies within the region are filled around; a wall without end that cuts it is a mistake, refused later.
     let bodies: Vec<(&Arc<dyn Surface<D>>, f64)> = surfaces
         .iter()
