@@ -49,14 +49,17 @@ pub fn at_speeds(
     all: &impl Fn(&[Case]) -> Result<Vec<Measured>, String>,
 ) -> Result<Vec<Measured>, String> {
     let (coarse, [.., finest]) = RADII[1];
+    // Fast screws first: their turns are short.
     let cases: Vec<Case> = speeds
         .iter()
+        .rev()
         .map(|&rpm| in_repelling_casing(Kind::Grains(finest), coarse, rpm))
         .collect();
-    let measured = all(&cases)?;
+    let mut measured = all(&cases)?;
     for (case, measured) in cases.iter().zip(&measured) {
         tell(report, case, measured);
     }
+    measured.reverse();
     Ok(measured)
 }
 

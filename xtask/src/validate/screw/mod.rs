@@ -71,11 +71,11 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     levels::feeder(report, &surface[2], &one[0]);
     let compared = comparisons(report, &base, &one[0], &all)?;
     report.progress(&format!("{compared} comparisons at n = 4"));
+    kinds::run(report, &root, print, &all)?;
+    cost::run(report, &root, print)?;
     grains::run(report, &all)?;
     let of_grains = grains::at_speeds(report, &SPEEDS, &all)?;
     against_speed(report, surface, &of_grains)?;
-    kinds::run(report, &root, print, &all)?;
-    cost::run(report, &root, print)?;
     let hundred = SPEEDS.iter().position(|&s| s == 100.0).unwrap_or(0);
     let full = full::run(report, &root, print, &surface[hundred])?;
     identities(report, "200 000 grains, 100 r/min", &full);
