@@ -13,9 +13,14 @@ use tsubu_scene::{Checked, Initial, MeshFile, Region, SceneError, TouchesAt, Wal
 use tsubu_sdf::mesh::{Report, Verdict};
 use tsubu_sdf::{ExactMesh, Winding};
 
-/// Overlap over the diameter above which a start is refused: a settled bed under its own weight has
+/// Overlap over the diameter above which a start of real grains is refused: a settled bed under its own weight has
 /// some 1e-4; at a hundredth grains of a stiff law would be shot apart.
 const MOST_OVERLAP: f64 = 0.01;
+
+/// The same for the grains of this scene: of softened ones the overlap that stores as much, up to a tenth.
+fn most_overlap(checked: &Checked) -> f64 {
+    (MOST_OVERLAP * checked.scene.grains.soften.sqrt()).min(0.1)
+}
 
 /// Most grains of a scene.
 const MOST_GRAINS: f64 = 2e8;
@@ -230,7 +235,7 @@ fn refuse_walls<D: Dim>(
             let nearest = hits.hits.iter().map(|hit| hit.distance);
             let distance = nearest.fold(f64::INFINITY, f64::min);
             let overlap = 1.0 - (distance + offset) / diameter;
-            if overlap <= MOST_OVERLAP {
+            if overlap <= most_overlap(checked) {
                 continue;
             }
             let what = if distance < 0.0 {
@@ -263,7 +268,7 @@ fn refuse_overlaps<D: Dim>(
     domain: &Domain<D>,
 ) -> Result<(), SceneError> {
     let n = grains.len();
-    let reach = diameter * (1.0 - MOST_OVERLAP);
+    let reach = diameter * (1.0 - most_overlap(checked));
     let grid = CellGrid::new(domain, n, |i| grains[i].position, reach);
     let old = |sorted: usize| grid.order[sorted] as usize;
     let mut list = ChunkList::default();

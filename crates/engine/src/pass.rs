@@ -23,6 +23,8 @@ pub(crate) struct Job<'a, D: Layout, S: SpinState, K: KindSet, L: ContactLaw<D, 
     pub pairs: &'a [L::Pair],
     /// Number of kinds.
     pub kinds: usize,
+    /// True if all pairs are equal, such as those of free and fixed grains.
+    pub alike: bool,
     /// Weight of each kind.
     pub weights: &'a [D::V],
     pub domain: Domain<D>,
@@ -42,6 +44,26 @@ pub(crate) struct Out<'a, D: Layout, S: SpinState> {
     pub torque: &'a mut [S::Turn<D>],
 }
 
+/// The forces of [`contacts`], with a table of pairs only if they differ: the compiler makes no vector code of a look-up.
+#[inline(always)]
+pub(crate) fn chunk_forces<D, S, K, L, T, G, const WIDE: usize>(
+    job: &Job<'_, D, S, K, L, T>,
+    out: Out<'_, D, S>,
+) where
+    D: Layout,
+    S: SpinState,
+    K: KindSet,
+    L: ContactLaw<D, S>,
+    T: Tally,
+    G: Gather,
+{
+    if K::INDEXED && !job.alike {
+        contacts::<D, S, K, L, T, G, WIDE, true>(job, out);
+    } else {
+        contacts::<D, S, K, L, T, G, WIDE, false>(job, out);
+    }
+}
+
 /// Contact forces and weight of the chunk's grains into `force`; their viscous part into `viscous` if tallied; their torque
 /// and their memory if they have any.
 ///
@@ -50,7 +72,7 @@ pub(crate) struct Out<'a, D: Layout, S: SpinState> {
 /// order of the list, so every path gives the same bits. `WIDE` lanes are in flight: with 32 registers
 /// two blocks at once hide each other's latency, with 16 they would spill.
 #[inline(always)]
-pub(crate) fn chunk_forces<D, S, K, L, T, G, const WIDE: usize>(
+fn contacts<D, S, K, L, T, G, const WIDE: usize, const TABLE: bool>(
     job: &Job<'_, D, S, K, L, T>,
     out: Out<'_, D, S>,
 ) where
@@ -142,7 +164,7 @@ pub(crate) fn chunk_forces<D, S, K, L, T, G, const WIDE: usize>(
                     k,
                 ),
             };
-            let pair = if K::INDEXED {
+            let pair = if TABLE {
                 job.pairs[own[D::KIND][k] as usize * job.kinds + other[D::KIND][k] as usize]
             } else {
                 only

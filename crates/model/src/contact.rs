@@ -89,8 +89,8 @@ pub struct Linear {
     note = "a law with torque needs grains that spin; a law for walls needs its own `ContactLaw`"
 )]
 pub trait ContactLaw<D: Dim, S: SpinState>: Send + Sync {
-    /// Constants of a pair of kinds, mixed once outside the loop.
-    type Pair: Copy + Send + Sync;
+    /// Constants of a pair of kinds, mixed once outside the loop. Where all pairs of a scene are equal none is looked up.
+    type Pair: Copy + PartialEq + Send + Sync;
     /// What the law remembers of a contact.
     type Memory: Numbers;
 

@@ -11,6 +11,12 @@ use crate::scene::{Axis, Bed, Domain, Fill, Grains, Initial, Space, StartingGrai
 /// The most layers of a bed; more is a slip of the pen.
 const LAYERS: u64 = 10_000;
 
+/// Distance of a bed's lattice in diameters if the scene says none.
+pub(super) const SPACING: f64 = 1.07;
+
+/// Columns across a bed in space whose domain says nothing of y.
+pub(super) const WIDTH: f64 = 6.0;
+
 impl Rules<'_> {
     pub(super) fn initial(
         &mut self,
@@ -130,7 +136,7 @@ impl Rules<'_> {
             spacing: self.within(
                 "initial.bed.spacing",
                 "the spacing",
-                number(&raw.spacing, 1.07),
+                number(&raw.spacing, SPACING),
                 [1.0, 2.0],
                 "it is the distance of the lattice in diameters: below 1 the grains would overlap; 1.05 to 1.10 are usual",
             ),

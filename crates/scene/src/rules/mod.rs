@@ -64,9 +64,14 @@ impl<'a> Rules<'a> {
             );
         }
         let grains = self.grains(raw.grains);
-        let domain = raw
-            .domain
-            .map_or(Domain::default(), |domain| self.domain(domain, gravity));
+        let width = raw.initial.bed.as_ref().zip(grains.as_ref());
+        let width = width.map(|(bed, grains)| {
+            let spacing = bed.spacing.as_ref().map_or(initial::SPACING, |raw| raw.0);
+            initial::WIDTH * spacing * grains.diameter
+        });
+        let domain = raw.domain.map_or(Domain::default(), |domain| {
+            self.domain(domain, width, gravity)
+        });
         let walls = self.walls(raw.walls.unwrap_or_default(), &domain);
         let initial = self.initial(raw.initial, &domain, gravity);
         let (outlets, inlets) = self.flow(

@@ -6,7 +6,13 @@ use crate::raw::{RawAxis, RawDomain, RawRegion};
 use crate::scene::{Axis, Domain, Region, Space};
 
 impl Rules<'_> {
-    pub(super) fn domain(&mut self, raw: RawDomain, gravity: f64) -> Domain {
+    /// The domain; a bed in space that says nothing of y repeats at its usual width.
+    pub(super) fn domain(
+        &mut self,
+        raw: RawDomain,
+        width_of_bed: Option<f64>,
+        gravity: f64,
+    ) -> Domain {
         if self.space == Space::Plane && raw.y.is_some() {
             self.refuse(
                 "domain.y",
@@ -21,9 +27,13 @@ impl Rules<'_> {
                 "write z: Open, or gravity: \"0 m/s2\"",
             );
         }
+        let y = match (raw.y, width_of_bed) {
+            (None, Some(width)) if self.space == Space::Space => Axis::Periodic(width),
+            (y, _) => self.axis("domain.y", y),
+        };
         Domain {
             x: self.axis("domain.x", raw.x),
-            y: self.axis("domain.y", raw.y),
+            y,
             z: self.axis("domain.z", raw.z),
         }
     }
