@@ -2,11 +2,13 @@
 //! taken up again. The name of a file holds a fingerprint of the physics, so a change of the code, of the scene or of
 //! its meshes starts anew.
 
-use crate::validate::scenes::{build_on, build_on_one_thread, keep, places, until_released};
+use crate::validate::scenes::{
+    build_anyway, build_on, build_on_one_thread, keep, places, until_released,
+};
 use std::fmt::Write as _;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use tsubu_assemble::{Built, Choices, Simulation, build};
+use tsubu_assemble::{Built, Simulation, Stop};
 use tsubu_scene::Source;
 
 /// Seconds of simulated time between two looks.
@@ -45,23 +47,32 @@ impl Measured {
         flow: Option<&Flow>,
         threads: usize,
     ) -> Result<Self, String> {
-        Self::of_built(build_on(source, threads)?, file, flow, LOOK)
+        let (measured, text, stop) = Self::of_built(build_on(source, threads)?, flow, LOOK)?;
+        if let Some(stop) = stop {
+            return Err(format!("{}: {stop:?}", file.display()));
+        }
+        keep(file, &text)?;
+        Ok(measured)
     }
 
-    /// The same without release and flow on one thread, looking so often, also where the step is over its limit.
+    /// The same without release and flow on one thread, looking so often, also where the step is over its limit: a run that
+    /// breaks is kept with the reading `broken`.
     pub fn of_unstable_run(source: &Source, file: &Path, look: f64) -> Result<Self, String> {
-        let choices = Choices {
-            threads: Some(1),
-            allow_unstable: true,
-            ..Choices::default()
-        };
-        let checked = source.check().map_err(|e| e.to_string())?;
-        let built = build(&checked, &choices).map_err(|e| e.to_string())?;
-        Self::of_built(built, file, None, look)
+        let (mut measured, mut text, stop) = Self::of_built(build_anyway(source)?, None, look)?;
+        if stop.is_some() {
+            measured.0.push(("broken".to_owned(), 1.0, f64::NAN));
+            text.push_str("broken,1.0,NaN\n");
+        }
+        keep(file, &text)?;
+        Ok(measured)
     }
 
-    fn of_built(built: Built, file: &Path, flow: Option<&Flow>, look: f64) -> Result<Self, String> {
-        let name = file.display();
+    /// What a run measured, the same as text, and what stopped it before its end.
+    fn of_built(
+        built: Built,
+        flow: Option<&Flow>,
+        look: f64,
+    ) -> Result<(Self, String, Option<Stop>), String> {
         let (mut run, dt) = (built.simulation, built.plan.constants.dt);
         let each = (look / dt).round() as u64;
         run.look();
@@ -84,16 +95,14 @@ impl Measured {
                 run.look();
             }
         }
-        if run.stop() != Some(tsubu_assemble::Stop::Over) {
-            return Err(format!("{name}: {:?}", run.stop()));
-        }
+        let stop = run.stop().filter(|stop| *stop != Stop::Over);
         let mut text = String::new();
         for reading in run.report() {
             let uncertainty = reading.uncertainty.unwrap_or(f64::NAN);
             let _ = writeln!(text, "{},{:?},{uncertainty:?}", reading.name, reading.value);
         }
-        keep(file, &text)?;
-        read(&text).ok_or_else(|| format!("{name}: the results do not read back"))
+        let measured = read(&text).ok_or_else(|| "the results do not read back".to_owned())?;
+        Ok((measured, text, stop))
     }
 }
 

@@ -54,6 +54,17 @@ pub fn build_on(source: &Source, threads: usize) -> Result<Built, String> {
     build(&checked, &choices).map_err(|e| e.to_string())
 }
 
+/// On one thread, also where the step is over its limit.
+pub fn build_anyway(source: &Source) -> Result<Built, String> {
+    let choices = Choices {
+        threads: Some(1),
+        allow_unstable: true,
+        ..Choices::default()
+    };
+    let checked = source.check().map_err(|e| e.to_string())?;
+    build(&checked, &choices).map_err(|e| e.to_string())
+}
+
 /// Runs until the wall is gone, to within a few steps, and says when it went.
 pub fn until_released(run: &mut dyn Simulation) -> Result<f64, String> {
     run.look();

@@ -1,19 +1,26 @@
 //! Suite `bedload`: paper B's law, its water and its movable bed against closed forms and measured transport.
 
+mod beds;
 mod collisions;
+mod flume;
+mod knobs;
 mod lab;
+mod nearest;
+mod packing;
 mod rolling;
 mod threshold;
 mod transport;
+mod usable;
 
 use super::check::Tolerance;
 use super::report::Report;
+use beds::Beds;
 use lab::SAND;
 use tsubu_contact::SpringDashpot;
 use tsubu_stream::{Sediment, Setting, Stream, Water};
 
-/// The long version: transport over Shields numbers, readings, β and steps, two seeds each.
-pub const FULL_GRAIN_STEPS: f64 = transport::FULL_GRAIN_STEPS + 1e7;
+/// The long version: some 700 beds, most of 400 grains and half a million steps.
+pub const FULL_GRAIN_STEPS: f64 = 3.0e11;
 
 /// The suite.
 pub fn run(report: &mut Report) -> Result<(), String> {
@@ -24,7 +31,19 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     report.progress("collisions and rolling");
     threshold::run(report)?;
     report.progress("thresholds");
-    transport::run(report)
+    let root = report.root().to_owned();
+    let beds = Beds::new(&root)?;
+    transport::shipped(report, &beds)?;
+    report.progress("the shipped bed");
+    if !report.full() {
+        return Ok(());
+    }
+    transport::converged(report, &beds)?;
+    transport::against_shields(report, &beds)?;
+    packing::run(report)?;
+    nearest::run(report, &beds)?;
+    knobs::run(report, &beds)?;
+    usable::run(report, &beds)
 }
 
 /// The constants that paper B prints, in SI, with the added mass in m.

@@ -1,230 +1,164 @@
-//! The movable bed: transport over Shields numbers, readings, β and steps.
+//! Transport against the Shields number (paper B's fig. 5): readings, at the step of the paper and at one that resolves.
 
+use super::beds::{Bed, Beds, Mean, Reading, meyer_peter_mueller};
+use super::flume;
 use crate::validate::check::Tolerance;
-use crate::validate::kept::{Measured, bits_of};
 use crate::validate::report::Report;
-use crate::validate::scenes::{build_on_one_thread, changed};
-use rayon::prelude::*;
-use std::path::{Path, PathBuf};
 use tsubu_picture::Figure;
 use tsubu_stream::TransportCurve;
 
-const SCENE: &str = "scenarios/movable_bed.ron";
-
-/// Grain-steps of the long version: some fifty runs of 400 grains and half a million steps.
-pub const FULL_GRAIN_STEPS: f64 = 1.4e10;
-
-/// Seeds of bed and turbulence of each case.
-const SEEDS: [u64; 2] = [1, 2];
+/// Seeds of bed and turbulence of each point.
+pub const SEEDS: u64 = 4;
 /// Shields numbers of the figure.
-const SHIELDS: [f64; 5] = [0.1, 0.2, 0.5, 1.0, 1.5];
+const SHIELDS: [f64; 7] = [0.05, 0.1, 0.2, 0.35, 0.5, 1.0, 1.5];
+/// The step of paper B's section 3 in µs, from which its constants are.
+pub const PAPERS_STEP: f64 = 20.0;
 
-/// One bed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Case {
-    shields: f64,
-    beta: f64,
-    /// The paper's printed reading of no tension, and of slip.
-    pulls: bool,
-    printed_slip: bool,
-    /// µs.
-    step: f64,
-    seed: u64,
-}
-
-impl Case {
-    fn of(shields: f64) -> Self {
-        Self {
-            shields,
-            beta: 15.8,
-            pulls: false,
-            printed_slip: false,
-            step: 3.0,
-            seed: 1,
-        }
-    }
-
-    fn sets(&self) -> Vec<String> {
-        let reading = |printed: bool, other: &str| {
-            if printed {
-                "AsPrinted".to_owned()
-            } else {
-                other.to_owned()
-            }
-        };
-        vec![
-            format!("water.shields={}", self.shields),
-            format!("grains.law.constants.beta={}", self.beta),
-            format!("grains.law.tension={}", reading(self.pulls, "NoPull")),
-            format!("grains.law.slip={}", reading(self.printed_slip, "Total")),
-            format!("time.step=Exactly(\"{} us\")", self.step),
-            format!("initial.bed.seed={}", self.seed),
-            format!("water.turbulence=Switched(seed: {})", self.seed),
-            "output.frames=false".to_owned(),
-        ]
-    }
-
-    fn file(&self, root: &Path, print: u64) -> PathBuf {
-        let Case {
-            shields,
-            beta,
-            step,
-            seed,
-            ..
-        } = self;
-        let readings = format!(
-            "{}{}",
-            if self.pulls { "-pulls" } else { "" },
-            if self.printed_slip { "-slip" } else { "" }
-        );
-        root.join(format!(
-            "target/validate/bedload/{print:016x}-tau{shields}-beta{beta}{readings}-{step}us-seed{seed}.csv"
-        ))
-    }
-
-    fn measured(&self, root: &Path, print: u64) -> Result<Measured, String> {
-        let file = self.file(root, print);
-        match Measured::kept(&file) {
-            Some(measured) => Ok(measured),
-            None => {
-                eprintln!("  bed {self:?} …");
-                let source = changed(&root.join(SCENE), &self.sets())?;
-                Measured::of_unstable_run(&source, &file, 2e-3)
-            }
-        }
-    }
-}
-
-/// Mean over the seeds with its standard error: of the seeds' scatter and of each run's own, the larger.
-fn over_seeds(report: &Report, print: u64, case: Case) -> Result<(f64, f64), String> {
-    let root = report.root();
-    let all: Vec<Measured> = SEEDS
-        .par_iter()
-        .map(|&seed| Case { seed, ..case }.measured(root, print))
-        .collect::<Result<_, _>>()?;
-    let values: Vec<(f64, f64)> = all.iter().map(|m| m.get("transport")).collect();
-    let n = values.len() as f64;
-    let mean = values.iter().map(|v| v.0).sum::<f64>() / n;
-    let scatter = values.iter().map(|v| (v.0 - mean).powi(2)).sum::<f64>() / (n * (n - 1.0));
-    let own = values.iter().map(|v| v.1 * v.1).sum::<f64>() / (n * n);
-    Ok((mean, scatter.max(own).sqrt()))
-}
-
-fn theory(shields: f64) -> f64 {
-    TransportCurve::MEYER_PETER_MULLER
-        .transport(shields)
-        .unwrap_or(f64::NAN)
-}
-
-/// The shipped bed in short; with `--full` the readings over Shields numbers.
-pub fn run(report: &mut Report) -> Result<(), String> {
-    let root = report.root().to_owned();
-    let sets = Case {
-        step: 1.0,
-        ..Case::of(0.5)
-    }
-    .sets();
-    let mut source = changed(&root.join(SCENE), &sets)?;
-    source.set("water.begins=2 ms").map_err(|e| e.to_string())?;
-    let mut run = build_on_one_thread(&source)?.simulation;
-    run.advance(4000);
-    let print = bits_of(&mut *run);
-    // τ* = 0.5, the paper's choice of constants.
-    let (transport, error) = over_seeds(report, print, Case::of(0.5))?;
+/// The shipped bed in short, two seeds.
+pub fn shipped(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
+    let [mean] = beds.means(&[Bed::of(0.5)], 2)?[..] else {
+        return Err("one bed has one mean".to_owned());
+    };
     report.beside(
         "no_pull, β = 15.8, τ* = 0.5, Δt = 3 µs: qB*, two seeds",
-        theory(0.5),
-        transport,
-        &format!("expected: Meyer-Peter and Müller; ± {error:.3}"),
+        meyer_peter_mueller(0.5),
+        mean.transport,
+        &format!("expected: Meyer-Peter and Müller; ± {:.3}", mean.error),
     );
-    report.progress("the shipped bed");
-    if !report.full() {
-        return Ok(());
-    }
-    let half = over_seeds(
-        report,
-        print,
-        Case {
-            step: 1.5,
-            ..Case::of(0.5)
-        },
-    )?;
+    Ok(())
+}
+
+/// Converged in the step, and near the relation at τ* = 0.5.
+pub fn converged(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
+    let bed = Bed::of(0.5);
+    let finer = Bed { step: 1.5, ..bed };
+    let [coarse, fine] = beds.means(&[bed, finer], 2 * SEEDS)?[..] else {
+        return Err("two beds have two means".to_owned());
+    };
     report.check(
         "no_pull, β = 15.8, τ* = 0.5: qB* at Δt = 3 µs over that at 1.5 µs",
         1.0,
-        transport / half.0,
-        Tolerance::Absolute(3.0 * (error / transport).hypot(half.1 / half.0)),
-        "converged in the step: three standard errors of two seeds each",
+        coarse.transport / fine.transport,
+        Tolerance::Absolute(
+            3.0 * (coarse.error / coarse.transport).hypot(fine.error / fine.transport),
+        ),
+        "converged in the step: three standard errors of eight seeds each",
     );
+    let (ratio, error) = fine.over_theory(0.5);
     report.check(
         "no_pull, β = 15.8, τ* = 0.5: qB* over Meyer-Peter and Müller's",
         1.0,
-        half.0 / theory(0.5),
+        ratio,
         Tolerance::Absolute(0.2),
-        "as asked; at the smaller step",
+        &format!("as asked; ± {error:.3}, eight seeds at 1.5 µs"),
     );
-    let readings = [
-        ("no_pull, β = 15.8", Case::of(0.5)),
-        (
-            "no_pull, β = 15.8, slip as printed",
-            Case {
-                printed_slip: true,
-                ..Case::of(0.5)
-            },
-        ),
-        (
-            "no_pull, β = 1",
-            Case {
-                beta: 1.0,
-                ..Case::of(0.5)
-            },
-        ),
-        (
-            "as_printed, β = 1",
-            Case {
-                beta: 1.0,
-                pulls: true,
-                printed_slip: true,
-                ..Case::of(0.5)
-            },
-        ),
-    ];
+    Ok(())
+}
+
+/// Rows of a set of means over Meyer-Peter and Müller's.
+pub fn told(report: &mut Report, name: &str, beds: &[Bed], means: &[Mean]) {
+    for (bed, mean) in beds.iter().zip(means) {
+        let (ratio, error) = mean.over_theory(bed.shields);
+        let state = match (mean.broken, mean.over_limit > 1.0) {
+            (0, false) => String::new(),
+            (0, true) => format!("; step at {:.1} of its limit", mean.over_limit),
+            (broken, _) => format!("; {broken} runs broke"),
+        };
+        report.tell(
+            format!(
+                "{name}, τ* = {}: qB* over Meyer-Peter and Müller's",
+                bed.shields
+            ),
+            ratio,
+            &format!("± {error:.3}{state}"),
+        );
+    }
+}
+
+/// Every run that claims to be converged keeps its step below the limit of its packing.
+pub fn resolved(report: &mut Report, name: &str, means: &[Mean]) {
+    let most = means.iter().map(|m| m.over_limit).fold(0.0, f64::max);
+    report.check(
+        format!("{name}: the largest share that a step took of its packing's limit"),
+        1.0,
+        most,
+        Tolerance::AtMost,
+        "λmax of the contacts as they lay when the water began",
+    );
+}
+
+/// Curves and measured rows that every figure of transport shows.
+pub fn with_relations(figure: Figure) -> Figure {
     let x: Vec<f64> = (0..=60).map(|k| 0.05 * 1.06f64.powi(k)).collect();
     let curve = |c: TransportCurve| -> Vec<f64> {
         x.iter()
             .map(|&s| c.transport(s).unwrap_or(f64::NAN))
             .collect()
     };
-    let mut figure = Figure::new(
-        "Transport of a bed of 0.5 mm sand, converged in the step",
+    let [others, sand] = flume::points();
+    figure
+        .log_x()
+        .log_y()
+        .x_range(0.04, 2.0)
+        .y_range(1e-3, 50.0)
+        .measured("flumes, slope ≤ 0.02", &others.0, &others.1)
+        .measured("Gilbert 1914, 0.5 mm", &sand.0, &sand.1)
+        .theory(
+            "Meyer-Peter & Müller 1948",
+            &x,
+            &curve(TransportCurve::MEYER_PETER_MULLER),
+        )
+        .theory(
+            "Wong & Parker 2006",
+            &x,
+            &curve(TransportCurve::WONG_PARKER),
+        )
+}
+
+/// Paper B's figure 5.
+pub fn against_shields(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
+    let base = Bed::of(0.5);
+    let printed = Bed {
+        reading: Reading::AsPrinted,
+        ..base
+    };
+    let stiff = |bed: Bed| Bed { beta: 1.0, ..bed };
+    let at_papers_step = |bed: Bed| Bed {
+        step: PAPERS_STEP,
+        ..bed
+    };
+    let sets = [
+        ("no_pull, β = 15.8", base),
+        (
+            "no_pull, β = 15.8, slip as printed",
+            Bed {
+                reading: Reading::NoPullSlipAsPrinted,
+                ..base
+            },
+        ),
+        ("no_pull, β = 1", stiff(base)),
+        ("as_printed, β = 1", stiff(printed)),
+        ("as_printed, β = 15.8", printed),
+        ("no_pull, β = 15.8, Δt = 20 µs", at_papers_step(base)),
+        (
+            "as_printed, β = 1, Δt = 20 µs",
+            at_papers_step(stiff(printed)),
+        ),
+        ("as_printed, β = 15.8, Δt = 20 µs", at_papers_step(printed)),
+    ];
+    let mut figure = with_relations(Figure::new(
+        "Transport of a bed of 0.5 mm sand (constants of 20 µs; step 3 µs unless said)",
         "Shields number τ* (–)",
         "transport qB* (–)",
-    )
-    .log_x()
-    .log_y()
-    .theory(
-        "Meyer-Peter & Müller 1948",
-        &x,
-        &curve(TransportCurve::MEYER_PETER_MULLER),
-    )
-    .theory(
-        "Wong & Parker 2006",
-        &x,
-        &curve(TransportCurve::WONG_PARKER),
-    );
-    for (name, base) in readings {
-        let (mut y, mut e) = (Vec::new(), Vec::new());
-        for shields in SHIELDS {
-            let (mean, error) = over_seeds(report, print, Case { shields, ..base })?;
-            report.beside(
-                format!("{name}, τ* = {shields}: qB*"),
-                theory(shields),
-                mean,
-                &format!("expected: Meyer-Peter and Müller; ± {error:.3}"),
-            );
-            y.push(mean);
-            e.push(error);
+    ));
+    for (name, base) in sets {
+        let all = SHIELDS.map(|shields| Bed { shields, ..base });
+        let means = beds.means(&all, SEEDS)?;
+        told(report, name, &all, &means);
+        if base.step < PAPERS_STEP {
+            resolved(report, name, &means);
         }
+        let (y, e): (Vec<f64>, Vec<f64>) = means.iter().map(|m| (m.transport, m.error)).unzip();
         figure = figure.points(name, &SHIELDS, &y, Some(&e));
         report.progress(name);
     }
