@@ -3,6 +3,7 @@
 //! `validate` holds the simulation against theory, `tidy` holds the sources against the invariants
 //! of the house. Both print what they found and end with exit code 1 on a failure.
 
+mod chart;
 mod meshes;
 mod tidy;
 mod validate;
@@ -33,6 +34,11 @@ enum Task {
         #[arg(long)]
         full: bool,
     },
+    /// Speed against accuracy: docs/charts/*.svg and the CSV behind each; exit 1 if a scene's default is off its front.
+    Chart {
+        /// Charts to make: heap, bed, feeder, price; none named = all.
+        charts: Vec<String>,
+    },
     /// Write the STL files of the screw feeder into scenarios/meshes, and say what is in them.
     Meshes,
     /// Hold the sources against the invariants of the house.
@@ -42,6 +48,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Validate { suites, full } => validate::run(&root(), &suites, full),
+        Task::Chart { charts } => chart::run(&root(), &charts),
         Task::Meshes => meshes::run(&root()),
         Task::Tidy => tidy::run(&root()),
     };

@@ -50,7 +50,10 @@ fn history(root: &Path, tn: f64, cn: f64, step: f64, seed: u64) -> Result<Vec<f6
 fn settled(heights: &[f64]) -> f64 {
     let last = heights.len() * 3 / 4;
     let end = heights[last..].iter().sum::<f64>() / (heights.len() - last) as f64;
-    match heights.iter().rposition(|y| !((y - end).abs() <= SETTLED)) {
+    match heights
+        .iter()
+        .rposition(|y| (y - end).abs() > SETTLED || y.is_nan())
+    {
         Some(k) if k >= last => f64::NAN,
         Some(k) => (k + 1) as f64 * LOOK,
         None => 0.0,

@@ -1,0 +1,45 @@
+//! `cargo xtask chart`: the error of what a scene is about against what it costs, over the knobs of the scene.
+
+mod bed;
+mod draw;
+mod feeder;
+mod front;
+mod heap;
+mod price;
+mod runs;
+mod scene;
+
+use scene::SceneChart;
+use std::path::Path;
+
+/// A chart by its name.
+const CHARTS: [(&str, fn() -> SceneChart); 3] = [
+    ("heap", heap::chart),
+    ("bed", bed::chart),
+    ("feeder", feeder::chart),
+];
+
+/// The list of what each piece of physics costs and changes.
+const PRICE: &str = "price";
+
+/// Makes the named charts, or all.
+pub fn run(root: &Path, names: &[String]) -> Result<bool, String> {
+    let all: Vec<&str> = CHARTS.iter().map(|c| c.0).chain([PRICE]).collect();
+    if let Some(name) = names.iter().find(|name| !all.contains(&name.as_str())) {
+        return Err(format!(
+            "there is no chart `{name}`; the charts are {}",
+            all.join(", ")
+        ));
+    }
+    let mut held = true;
+    let asked = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
+    for (name, chart) in CHARTS {
+        if asked(name) {
+            held &= draw::scene(root, name, &chart())?;
+        }
+    }
+    if asked(PRICE) {
+        held &= price::run(root)?;
+    }
+    Ok(held)
+}
