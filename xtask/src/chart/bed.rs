@@ -10,9 +10,7 @@ pub fn subject() -> Subject {
         quantity: "transport",
         word: "the transport qB*",
         look: 0.002,
-        shared: ["output.frames=false", "output.animation=false"]
-            .map(str::to_owned)
-            .to_vec(),
+        shared: Vec::new(),
         cheap: vec![
             "initial.bed.layers=3".to_owned(),
             "water.begins=5 ms".to_owned(),

@@ -10,13 +10,7 @@ pub fn subject() -> Subject {
         quantity: "mass_rate_from_section",
         word: "the mass rate",
         look: 0.01,
-        shared: [
-            "output.frames=false",
-            "output.animation=false",
-            "still.at_most=10 s",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+        shared: ["still.at_most=10 s"].map(str::to_owned).to_vec(),
         cheap: vec!["grains.coarse=4".to_owned()],
         seeds: &["initial.fill.seed=#"],
     }

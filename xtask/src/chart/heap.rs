@@ -10,14 +10,9 @@ pub fn subject() -> Subject {
         quantity: "angle_of_repose",
         word: "the angle of repose",
         look: 0.02,
-        shared: [
-            "output.energies=false",
-            "output.frames=false",
-            "output.animation=false",
-            "still.at_most=20 s",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+        shared: ["output.energies=false", "still.at_most=20 s"]
+            .map(str::to_owned)
+            .to_vec(),
         cheap: vec!["grains.coarse=3".to_owned()],
         seeds: &["initial.fill.seed=#"],
     }

@@ -12,8 +12,11 @@ mod scene;
 use scene::SceneChart;
 use std::path::Path;
 
-/// A chart by its name.
-const CHARTS: [(&str, fn() -> SceneChart); 3] = [
+/// What makes the chart of a scene.
+type Chart = fn() -> SceneChart;
+
+/// Charts by their names.
+const CHARTS: [(&str, Chart); 3] = [
     ("heap", heap::chart),
     ("bed", bed::chart),
     ("feeder", feeder::chart),
