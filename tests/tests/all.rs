@@ -5,7 +5,8 @@ mod command; // exit codes and what a run leaves behind
 mod good_scenes; // every good scene runs to its end, and its resolved text runs to the same bits
 mod machines; // meshes with faults, bodies that move, grains that come and go
 mod physics; // whole scenes with closed forms
-mod properties;
+mod properties; // random small scenes: stable when the check says so, invariants, units
 mod river; // a bed that rests, moves, and is refused an unstable step
 mod same_bits; // threads, vector paths, outputs and batches change no bit
-mod trouble; // folders that cannot be written, signals, physics that fails // random small scenes: stable when the check says so, invariants, units
+mod trouble; // folders that cannot be written, signals, physics that fails
+mod tune; // settings that hold, and none

@@ -4,6 +4,7 @@ mod flow;
 mod grains;
 mod initial;
 mod motion;
+mod seeds;
 mod springs;
 mod wall;
 mod water;

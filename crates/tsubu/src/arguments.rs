@@ -31,6 +31,11 @@ pub enum Command {
         after_help = "Example:  tsubu check scenarios/angle_of_repose.ron --set grains.coarse=1"
     )]
     Check(CheckWish),
+    /// Find the cheapest settings that keep a quantity within a tolerance of a converged run of the scene
+    #[command(
+        after_help = "Example:  tsubu tune scenarios/movable_bed.ron --quantity transport --tolerance 20%"
+    )]
+    Tune(TuneWish),
     /// Look at an STL or OBJ file: what is wrong with it, what a scene can make of it, which cell suits it
     #[command(after_help = "Example:  tsubu mesh scenarios/meshes/screw.stl")]
     Mesh(MeshWish),
@@ -85,6 +90,41 @@ pub struct CheckWish {
     /// Which scene.
     #[command(flatten)]
     pub scene: SceneWish,
+}
+
+/// `tsubu tune`.
+#[derive(Debug, Args)]
+pub struct TuneWish {
+    /// Which scene.
+    #[command(flatten)]
+    pub scene: SceneWish,
+    /// What is to stay, as a run's summary names it: mass_rate, angle_of_repose, transport, …
+    #[arg(long, value_name = "NAME")]
+    pub quantity: String,
+    /// How far it may be off, as 5% or 0.05
+    #[arg(long, value_parser = tolerance, value_name = "P")]
+    pub tolerance: ToleranceWish,
+    /// The most that a run of the reference may cost, in runs of the scene
+    #[arg(long, default_value_t = 12.0, value_name = "TIMES")]
+    pub reference_cost: f64,
+    /// Folder for the pilots and the result [default: out/<scene>-tune]; a tuning that was stopped goes on there
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// A tolerance as a share.
+#[derive(Clone, Copy, Debug)]
+pub struct ToleranceWish(pub f64);
+
+fn tolerance(text: &str) -> Result<ToleranceWish, String> {
+    let (number, unit) = match text.strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(share) if share * unit > 0.0 && share * unit <= 1.0 => Ok(ToleranceWish(share * unit)),
+        _ => Err("expected a share above 0 % and at most 100 %, as 5% or 0.05".to_owned()),
+    }
 }
 
 /// `tsubu mesh`.

@@ -14,6 +14,7 @@ mod rows;
 mod run;
 mod shipped;
 mod trouble;
+mod tune;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
     let done = match arguments.command {
         arguments::Command::Run(wish) => run::run(&wish),
         arguments::Command::Check(wish) => check::check(&wish),
+        arguments::Command::Tune(wish) => tune::tune(&wish),
         arguments::Command::Mesh(wish) => mesh::mesh(&wish),
         arguments::Command::Scenes => shipped::list(),
         arguments::Command::Init { name } => shipped::init(&name),

@@ -19,8 +19,13 @@ use tsubu::scene::{Checked, Source};
 /// Steps between two looks at the clock and at signals: short enough to stop at once, long enough not to matter.
 const GLANCE: u64 = 64;
 
-/// Reads a scene with its changes.
+/// Reads a scene with its changes, and checks it.
 pub fn read(wish: &SceneWish) -> Result<Checked, Trouble> {
+    Ok(read_source(wish)?.check()?)
+}
+
+/// Reads a scene with its changes.
+pub fn read_source(wish: &SceneWish) -> Result<Source, Trouble> {
     let mut source = Source::read(&wish.scene)?;
     for set in &wish.set {
         source.set(set)?;
@@ -28,7 +33,20 @@ pub fn read(wish: &SceneWish) -> Result<Checked, Trouble> {
     if let Some(until) = &wish.until {
         source.set(&format!("time.until={until}"))?;
     }
-    Ok(source.check()?)
+    Ok(source)
+}
+
+/// A flag that Ctrl-C or SIGTERM raises; a second one ends the program at once.
+pub fn until_signal() -> Arc<AtomicBool> {
+    let stopped = Arc::new(AtomicBool::new(false));
+    let flag = stopped.clone();
+    // Without a handler a signal just ends the program; the run itself does not need it.
+    let _ = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::SeqCst) {
+            std::process::exit(130);
+        }
+    });
+    stopped
 }
 
 /// The machine's side of a wish. Grids of distances are kept beside the runs, so that the next one starts at once.
@@ -82,15 +100,7 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
         folder.root().display()
     );
 
-    let stopped = Arc::new(AtomicBool::new(false));
-    let flag = stopped.clone();
-    // Without a handler a signal just ends the program; the run itself does not need it.
-    let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::SeqCst) {
-            std::process::exit(130);
-        }
-    });
-
+    let stopped = until_signal();
     let output = checked.scene.output;
     let clock = Clock::of(&output, &plan);
     let mut rows = Rows::start(&folder, &mut *run)?;
@@ -202,7 +212,7 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
 }
 
 /// The command as it was typed, for the captions of figures.
-fn command_line() -> String {
+pub fn command_line() -> String {
     let mut words: Vec<String> = std::env::args().collect();
     if let Some(first) = words.first_mut() {
         *first = "tsubu".into();

@@ -15,6 +15,8 @@ pub enum Trouble {
     Arguments(String),
     /// The physics failed.
     Physics(String),
+    /// The machine refused.
+    Machine(String),
     /// Writing failed.
     Record(RecordError),
     /// Drawing failed.
@@ -27,6 +29,7 @@ impl Trouble {
         match self {
             Trouble::Scene(_) | Trouble::Arguments(_) => 2,
             Trouble::Physics(_) => 3,
+            Trouble::Machine(_) => 4,
             Trouble::Record(error) => error.exit_code(),
             Trouble::Picture(_) => 4,
         }
@@ -41,7 +44,9 @@ impl fmt::Display for Trouble {
                     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
                 write!(f, "{}", error.render(colour))
             }
-            Trouble::Arguments(text) | Trouble::Physics(text) => write!(f, "error: {text}"),
+            Trouble::Arguments(text) | Trouble::Physics(text) | Trouble::Machine(text) => {
+                write!(f, "error: {text}")
+            }
             Trouble::Record(error) => write!(f, "error: {error}"),
             Trouble::Picture(error) => write!(
                 f,

@@ -13,8 +13,8 @@ pub fn subject() -> Subject {
         shared: Vec::new(),
         cheap: vec![
             "initial.bed.layers=3".to_owned(),
-            "water.begins=5 ms".to_owned(),
-            "time.until=60 ms".to_owned(),
+            "water.begins=30 ms".to_owned(),
+            "time.until=80 ms".to_owned(),
         ],
         seeds: &["initial.bed.seed=#", "water.turbulence=Switched(seed: #)"],
     }
