@@ -36,8 +36,16 @@ enum Task {
     },
     /// Speed against accuracy: docs/charts/*.svg and the CSV behind each; exit 1 if a scene's default is off its front.
     Chart {
-        /// Charts to make: heap, bed, feeder, price; none named = all.
+        /// Charts to make: collision, heap, bed, feeder, price; none named = all.
         charts: Vec<String>,
+    },
+    /// Steps for callgrind to count; used by `chart`.
+    #[command(name = chart::collision::COUNTED, hide = true)]
+    CountedSteps {
+        /// Number of the scheme.
+        scheme: usize,
+        /// How many steps.
+        steps: u64,
     },
     /// Write the STL files of the screw feeder into scenarios/meshes, and say what is in them.
     Meshes,
@@ -49,6 +57,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Validate { suites, full } => validate::run(&root(), &suites, full),
         Task::Chart { charts } => chart::run(&root(), &charts),
+        Task::CountedSteps { scheme, steps } => chart::collision::counted(scheme, steps),
         Task::Meshes => meshes::run(&root()),
         Task::Tidy => tidy::run(&root()),
     };

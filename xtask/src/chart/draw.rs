@@ -113,8 +113,13 @@ pub fn draw(
     keep(&folder.join(format!("{file}.csv")), &csv)?;
     let off = default.map_or(f64::INFINITY, |k| above(points, &best, k));
     let held = points.len() >= 25 && best.len() >= 4 && off <= NEAR;
+    let shipped = match off {
+        0.0 => "as shipped on it".to_owned(),
+        off if off.is_finite() => format!("as shipped {off:.1} standard errors above it"),
+        _ => "as shipped above it".to_owned(),
+    };
     println!(
-        "{name}: {} points, {} on the front; as shipped {off:.1} standard errors above it; docs/charts/{file}.svg\n",
+        "{name}: {} points, {} on the front; {shipped}; docs/charts/{file}.svg\n",
         points.len(),
         best.len()
     );

@@ -1,6 +1,7 @@
 //! `cargo xtask chart`: the error of what a scene is about against what it costs, over the knobs of the scene.
 
 mod bed;
+pub mod collision;
 mod draw;
 mod feeder;
 mod front;
@@ -25,9 +26,16 @@ const CHARTS: [(&str, Chart); 3] = [
 /// The list of what each piece of physics costs and changes.
 const PRICE: &str = "price";
 
+/// The chart of collisions and a packing.
+const COLLISION: &str = "collision";
+
 /// Makes the named charts, or all.
 pub fn run(root: &Path, names: &[String]) -> Result<bool, String> {
-    let all: Vec<&str> = CHARTS.iter().map(|c| c.0).chain([PRICE]).collect();
+    let all: Vec<&str> = CHARTS
+        .iter()
+        .map(|c| c.0)
+        .chain([COLLISION, PRICE])
+        .collect();
     if let Some(name) = names.iter().find(|name| !all.contains(&name.as_str())) {
         return Err(format!(
             "there is no chart `{name}`; the charts are {}",
@@ -40,6 +48,9 @@ pub fn run(root: &Path, names: &[String]) -> Result<bool, String> {
         if asked(name) {
             held &= draw::scene(root, name, &chart())?;
         }
+    }
+    if asked(COLLISION) {
+        held &= collision::run(root)?;
     }
     if asked(PRICE) {
         held &= price::run(root)?;

@@ -5,15 +5,15 @@
 mod bedload;
 mod check;
 mod coarsen;
-mod collision;
+pub mod collision;
 pub mod kept;
-mod lab;
+pub mod lab;
 mod report;
 mod repose;
 pub mod scenes;
 mod screw;
 mod sdf;
-mod wca;
+pub mod wca;
 
 use report::Report;
 use std::path::Path;
