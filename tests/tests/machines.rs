@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use std::path::Path;
-use tsubu::assemble::{Choices, build};
+use tsubu::assemble::{Choices, Stop, build};
 use tsubu::engine::Lanes;
 use tsubu::model::Surface;
 use tsubu::scene::Source;
@@ -255,13 +255,33 @@ fn paddle(folder: &Path) -> std::path::PathBuf {
     path
 }
 
+/// Changes after which a scene's grains turn and remember.
+const SPRINGS: [&str; 2] = [
+    "grains.law=SpringDashpot(constants: FromRestitution(normal_stiffness: \"5 kN/m\", restitution: 0.5), friction: 0.4)",
+    "output.energies=false",
+];
+
 #[test]
 fn threads_and_vector_paths_change_no_bit_of_a_machine() {
-    let scratch = Scratch::new("machine-bits");
-    let path = paddle(scratch.path());
-    let checked = Source::read(&path)
-        .and_then(|s| s.check())
-        .unwrap_or_else(|e| panic!("{e}"));
+    bits_of_paddle(&[]);
+}
+
+#[test]
+fn nor_of_a_machine_whose_grains_turn_and_remember() {
+    bits_of_paddle(&SPRINGS);
+}
+
+fn bits_of_paddle(sets: &[&str]) {
+    let scratch = Scratch::new(if sets.is_empty() {
+        "machine-bits"
+    } else {
+        "turning-bits"
+    });
+    let mut source = Source::read(paddle(scratch.path())).unwrap_or_else(|e| panic!("{e}"));
+    for set in sets {
+        source.set(set).unwrap_or_else(|e| panic!("{e}"));
+    }
+    let checked = source.check().unwrap_or_else(|e| panic!("{e}"));
     let run = |threads: usize, lanes: Lanes| {
         let choices = Choices {
             threads: Some(threads),
@@ -272,8 +292,13 @@ fn threads_and_vector_paths_change_no_bit_of_a_machine() {
             .unwrap_or_else(|error| panic!("{error}"))
             .simulation;
         run_out(&mut *run);
-        let readings: Vec<(String, u64)> = run
-            .look()
+        let readings = run.look();
+        let number = |name: &str| readings.iter().find(|r| r.name == name).map(|r| r.value);
+        let report = run.report();
+        let missing = report.iter().find(|r| r.name == "grains_missing");
+        assert_eq!(missing.map(|r| r.value), Some(0.0));
+        assert!(number("moved_through_side") > Some(20.0));
+        let readings: Vec<(String, u64)> = readings
             .into_iter()
             .map(|r| (r.name.into_owned(), r.value.to_bits()))
             .collect();
@@ -367,4 +392,44 @@ fn the_feeder_runs_with_a_screw_built_of_grains() {
     };
     assert_eq!(reading("grains_missing"), 0.0);
     assert!(reading("torque_x_on_screw").is_finite());
+}
+
+/// Grains that turn have stiffer motions than a pair: a damping that a pair bears at this step is too much for the heap, which
+/// is found out once it lies, when the wall that waited for it would go.
+#[test]
+fn a_step_over_the_limit_of_a_dry_packing_is_refused_at_the_release() {
+    let heap = tsubu_tests::repository().join("tests/scenes/good/small_heap.ron");
+    let ran = |damping: &str| {
+        let mut source = Source::read(&heap).unwrap_or_else(|e| panic!("{e}"));
+        for set in [
+            &format!(
+                "grains.law=SpringDashpot(constants: FromTimeStep(step: \"80 us\", tn: 20, cn: {damping}), friction: 0.4)"
+            ),
+            "output.energies=false",
+            "time.step=Exactly(\"20 us\")",
+            "time.until=1 ms",
+        ] {
+            source.set(set).unwrap_or_else(|e| panic!("{e}"));
+        }
+        let checked = source.check().unwrap_or_else(|e| panic!("{e}"));
+        let built = build(&checked, &Choices::default()).unwrap_or_else(|e| panic!("{e}"));
+        let mut run = built.simulation;
+        while run.stop().is_none() {
+            run.advance(10_000);
+        }
+        let used = run
+            .report()
+            .iter()
+            .find(|r| r.name == "step_over_limit")
+            .map(|r| r.value);
+        (run.stop(), used)
+    };
+    let (stop, used) = ran("1.3");
+    let Some(Stop::UnstablePacking { used: said, .. }) = stop else {
+        panic!("{stop:?}")
+    };
+    assert!(said >= 1.0 && used == Some(said), "{used:?}");
+    let (stop, used) = ran("0.3");
+    assert_eq!(stop, Some(Stop::Over));
+    assert!(used > Some(0.1) && used < Some(1.0), "{used:?}");
 }

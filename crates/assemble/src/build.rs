@@ -276,6 +276,8 @@ impl<D: Layout + Slices> Parts<'_, D> {
                 Law::SpringDashpot { .. } => 0.9,
             },
             lost_bed: water,
+            // Grains that turn have stiffer motions than the tables of limits know.
+            weighs_released: matches!(self.constants.law, Law::SpringDashpot { .. }),
             weigh_at: begins.map(|t| (t / self.constants.dt).round() as u64),
             refuse_unstable: !self.allow_unstable,
             used: None,

@@ -334,6 +334,12 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
         };
         let material = if wall.shape.wall_grains().is_some() {
             "touched as a grain".to_owned()
+        } else if let Law::SpringDashpot { .. } = constants.law {
+            format!(
+                "{}, {}",
+                part(wall.restitution, "restitution", "the grains' damping"),
+                part(wall.friction, "friction", "the grains' friction"),
+            )
         } else {
             format!(
                 "{}, {}",

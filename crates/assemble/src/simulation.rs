@@ -154,6 +154,8 @@ pub(crate) struct Running<
     pub lost_bed: Option<Arc<AtomicBool>>,
     /// The step at which the limit of the packing as it lies is worked out.
     pub weigh_at: Option<u64>,
+    /// True if it is worked out at the release.
+    pub weighs_released: bool,
     /// True if a step over that limit ends the run.
     pub refuse_unstable: bool,
     /// Share of the limit that the packing used then.
@@ -224,6 +226,9 @@ where
             }
             if let Some(law) = self.law_after.take() {
                 self.world.set_law(&law);
+            }
+            if self.weighs_released {
+                self.weigh();
             }
         }
         if let Some(release) = self.release.filter(|r| r.at_step.is_none())
