@@ -1,7 +1,7 @@
 //! Every good scene and every scenario runs to its end, and its resolved text runs to the same bits.
 
 use std::path::{Path, PathBuf};
-use tsubu::assemble::{Built, Choices, Stop, build};
+use tsubu::assemble::{Built, Choices, Constants, Stop, build};
 use tsubu::scene::{Checked, End, Source};
 use tsubu_tests::{bits, repository, run_out, scene_files};
 
@@ -143,4 +143,40 @@ fn the_small_heap_waits_for_stillness_and_then_runs_as_long_as_it_says() {
             .is_some_and(|r| r.value > 2.0 && r.value < 60.0),
         "{angle:?}"
     );
+}
+
+/// A step that the program chooses is at most a twentieth of the period, and leaves room below every limit: a tenth of it for
+/// grains that do not turn, and for those that do what a packing of them needs.
+#[test]
+fn a_step_that_the_program_chooses_keeps_clear_of_every_limit() {
+    for (path, most) in scene_files("scenarios").iter().map(|path| {
+        let turning =
+            std::fs::read_to_string(path).is_ok_and(|text| text.contains("SpringDashpot("));
+        (path, if turning { 0.15 } else { 0.9 })
+    }) {
+        let mut source = Source::read(path).unwrap_or_else(|error| panic!("{error}"));
+        for change in ["time.step=Automatic", "grains.coarse=0"] {
+            source.set(change).unwrap_or_else(|error| panic!("{error}"));
+        }
+        // Constants and limits need no grains and no grids: the box of a screw is not asked for.
+        let checked = source.check().unwrap_or_else(|error| panic!("{error}"));
+        let constants = Constants::of(&checked).unwrap_or_else(|error| panic!("{error}"));
+        let limits = constants.limits();
+        assert!(
+            constants.dt <= constants.period / 20.0,
+            "{}",
+            path.display()
+        );
+        assert!(!limits.is_empty());
+        for limit in limits {
+            assert!(limit.used <= most, "{}: {limit:?}", path.display());
+        }
+        // No shorter than it needs to be.
+        let tight = constants.limits().iter().any(|l| l.used > 0.98 * most);
+        assert!(
+            tight || constants.dt == constants.period / 20.0,
+            "{}",
+            path.display()
+        );
+    }
 }

@@ -108,6 +108,7 @@ impl Constants {
         }
         let period = 2.0 * PI * (0.5 * kind.mass / law.stiffness()).sqrt();
         let dt = match scene.time.step {
+            scene::Step::Automatic => period / STEPS_PER_PERIOD,
             scene::Step::PerPeriod(steps) => period / steps,
             scene::Step::Seconds(dt) => dt * rule.step_factor(level.lambda()),
             scene::Step::Exactly(dt) => dt,
@@ -133,7 +134,7 @@ impl Constants {
         let sizes = sizes
             .map(|size| springs::of_size(checked, size.diameter))
             .collect::<Result<_, _>>()?;
-        Ok(Self {
+        let mut constants = Self {
             kind,
             sizes,
             fixed: bed.then_some(Kind {
@@ -149,7 +150,11 @@ impl Constants {
             scheme: scheme_of(scene.time.integrator),
             dt,
             period,
-        })
+        };
+        if scene.time.step == scene::Step::Automatic {
+            constants.shorten_step();
+        }
+        Ok(constants)
     }
 
     /// K = kΔt²/m of one grain's mass.
@@ -166,6 +171,10 @@ impl Constants {
         damping * self.dt / self.kind.mass
     }
 }
+
+/// Steps per period of a contact where the scene leaves the step to the program: single collisions are then known to some
+/// per cent (`cargo xtask validate collision`).
+const STEPS_PER_PERIOD: f64 = 20.0;
 
 /// The laws of grains without spin. A wall shares the grains' potential; its own constants go through the plain rule
 /// (crate coarsen says why).

@@ -96,7 +96,7 @@ pub(crate) const CHOICES: &[(&str, &[&str])] = &[
     ("turbulence", &["Off", "Switched"]),
     ("datum", &["Renewed", "Frozen", "Given"]),
     ("coarse_drag", &["ByVolume"]),
-    ("step", &["PerPeriod", "Seconds", "Exactly"]),
+    ("step", &["Automatic", "PerPeriod", "Seconds", "Exactly"]),
     (
         "integrator",
         &[
@@ -205,7 +205,7 @@ pub(crate) struct RawStill {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename = "time")]
 pub(crate) struct RawTime {
-    pub step: RawStep,
+    pub step: Option<RawStep>,
     pub integrator: Option<RawIntegrator>,
     pub until: Option<Quantity<Time>>,
     pub steps: Option<Whole>,
@@ -214,6 +214,7 @@ pub(crate) struct RawTime {
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename = "step")]
 pub(crate) enum RawStep {
+    Automatic,
     PerPeriod(Number),
     Seconds(Quantity<Time>),
     Exactly(Quantity<Time>),

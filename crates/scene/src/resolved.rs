@@ -235,6 +235,7 @@ fn axis(axis: Axis) -> String {
 
 fn step(step: Step) -> String {
     match step {
+        Step::Automatic => "Automatic".to_owned(),
         Step::PerPeriod(count) => format!("PerPeriod({count:?})"),
         Step::Seconds(time) => format!("Seconds({})", quantity(Dimension::Time, time)),
         Step::Exactly(time) => format!("Exactly({})", quantity(Dimension::Time, time)),

@@ -111,6 +111,8 @@ pub struct Time {
 /// How the time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
+    /// A twentieth of the period of a contact, or less where damping or packing ask for it.
+    Automatic,
     /// This many steps per period of a contact.
     PerPeriod(f64),
     /// Δt at coarse level 0, s; multiplied by what the coarse rule says.

@@ -40,15 +40,16 @@ impl Rules<'_> {
 
     pub(super) fn time(&mut self, raw: &RawTime) -> Option<Time> {
         let step = match raw.step {
-            RawStep::PerPeriod(count) => Step::PerPeriod(self.above_zero(
+            None | Some(RawStep::Automatic) => Step::Automatic,
+            Some(RawStep::PerPeriod(count)) => Step::PerPeriod(self.above_zero(
                 "time.step[0]",
                 "the number of steps per period",
                 count.0,
             )),
-            RawStep::Seconds(step) => {
+            Some(RawStep::Seconds(step)) => {
                 Step::Seconds(self.above_zero("time.step[0]", "the time step", step.0))
             }
-            RawStep::Exactly(step) => {
+            Some(RawStep::Exactly(step)) => {
                 Step::Exactly(self.above_zero("time.step[0]", "the time step", step.0))
             }
         };

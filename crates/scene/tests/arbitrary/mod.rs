@@ -93,6 +93,7 @@ fn grains() -> impl Strategy<Value = Grains> {
 
 fn time() -> impl Strategy<Value = Time> {
     let step = prop_oneof![
+        Just(Step::Automatic),
         size().prop_map(Step::PerPeriod),
         size().prop_map(Step::Seconds),
         size().prop_map(Step::Exactly)

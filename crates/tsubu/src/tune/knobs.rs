@@ -50,26 +50,28 @@ pub fn knobs(scene: &Scene, steady: bool) -> Vec<Knob> {
 fn step(scene: &Scene) -> Option<Knob> {
     let by = |factor: f64| {
         let set = match scene.time.step {
+            // As a share of what the program chose it cannot be said.
+            Step::Automatic => return None,
             Step::PerPeriod(n) => format!("PerPeriod({})", n / factor),
             Step::Seconds(s) => format!("Seconds(\"{:e} s\")", s * factor),
             Step::Exactly(s) => format!("Exactly(\"{:e} s\")", s * factor),
         };
-        notch(
+        Some(notch(
             format!("Δt × {factor}"),
             format!("time.step={set}"),
             1.0 / factor,
-        )
+        ))
     };
     Some(Knob {
         name: "step",
-        coarser: [1.5, 2.0].map(by).to_vec(),
-        finer: [0.5, 0.25].map(by).to_vec(),
+        coarser: [1.5, 2.0].into_iter().map(by).collect::<Option<_>>()?,
+        finer: [0.5, 0.25].into_iter().map(by).collect::<Option<_>>()?,
     })
 }
 
 /// Softer contacts bear a longer step only where the step follows the period.
 fn stiffness(scene: &Scene) -> Option<Knob> {
-    let follows = matches!(scene.time.step, Step::PerPeriod(_));
+    let follows = matches!(scene.time.step, Step::PerPeriod(_) | Step::Automatic);
     match &scene.grains.law {
         Law::Repulsion { .. } => {
             let soften = scene.grains.soften;
