@@ -2,7 +2,7 @@
 //!
 //! Instructions are counted by callgrind (`valgrind`, which must be there), so that the chart repeats.
 
-use super::draw::draw;
+use super::draw::{save, table};
 use super::front::Point;
 use crate::validate::collision::pair::head_on;
 use crate::validate::lab::{Draw, Lab, name};
@@ -12,6 +12,7 @@ use std::path::Path;
 use std::process::Command;
 use tsubu_integrate::Scheme;
 use tsubu_model::View;
+use tsubu_picture::Figure;
 
 /// The name of the command that callgrind looks at.
 pub const COUNTED: &str = "counted-steps";
@@ -158,32 +159,52 @@ pub fn run(root: &Path) -> Result<bool, String> {
         let collision = points(&cost, 0.5, |scheme, steps| {
             of_collision(scheme, zeta, steps)
         });
-        draw(
-            root,
-            "collision",
-            &format!("Restitution of a pair, ζ = {zeta}, 64 phases of first touch"),
+        let title = format!("Restitution of a pair, ζ = {zeta}, 64 phases of first touch");
+        let file = format!("collision_{zeta}");
+        let figure = by_scheme(
+            &title,
             "instructions a grain and contact (–)",
-            "the restitution",
-            &format!("collision_{zeta}"),
+            "error of one collision's restitution (–)",
             &collision,
-        )?;
+        );
+        save(root, "collision", &file, figure)?;
+        table(root, "collision", &file, &collision)?;
         say_who_is_best(&format!("restitution, ζ = {zeta}"), &collision);
         let truth = displaced(Scheme::VerletAveraged { sweeps: 4 }, zeta, 4000.0);
         let packing = points(&cost, 1.0, |scheme, steps| {
             (of_packing(scheme, zeta, steps, &truth), 0.0)
         });
-        draw(
-            root,
-            "collision",
-            &format!("Displacements in a pressed packing after a period, ζ = {zeta}"),
+        let title = format!("Displacements in a pressed packing after a period, ζ = {zeta}");
+        let file = format!("packing_{zeta}");
+        let figure = by_scheme(
+            &title,
             "instructions a grain and period (–)",
-            "the displacements",
-            &format!("packing_{zeta}"),
+            "error of the displacements (–)",
             &packing,
-        )?;
+        );
+        save(root, "collision", &file, figure)?;
+        table(root, "collision", &file, &packing)?;
         say_who_is_best(&format!("packing, ζ = {zeta}"), &packing);
     }
     Ok(true)
+}
+
+/// A curve for each scheme, from T/10 to T/100. What a step over its limit makes is left out.
+fn by_scheme(title: &str, cost: &str, error: &str, points: &[Point]) -> Figure {
+    let mut figure = Figure::new(title, cost, error).log_x().log_y();
+    for (scheme, points) in SCHEMES.iter().zip(points.chunks(STEPS.len())) {
+        let stable = points.iter().filter(|p| p.error < 1.0);
+        let (mut x, mut y, mut e) = (Vec::new(), Vec::new(), Vec::new());
+        for p in stable {
+            x.push(p.cost);
+            y.push(p.error);
+            e.push(p.uncertainty);
+        }
+        figure = figure
+            .line(&name(*scheme), &x, &y)
+            .points(&name(*scheme), &x, &y, Some(&e));
+    }
+    figure
 }
 
 fn points(cost: &[f64], periods: f64, error: impl Fn(Scheme, f64) -> (f64, f64)) -> Vec<Point> {

@@ -29,8 +29,8 @@ pub fn scene(root: &Path, name: &str, chart: &SceneChart) -> Result<bool, String
     )
 }
 
-/// Figure, CSV and table of a set of points.
-pub fn draw(
+/// Figure, CSV and table of a set of points, each of the front with its own mark.
+fn draw(
     root: &Path,
     name: &str,
     title: &str,
@@ -64,12 +64,26 @@ pub fn draw(
         let (x, y, e) = of(&[k]);
         figure = figure.points(&format!("as shipped: {}", points[k].name), &x, &y, Some(&e));
     }
+    save(root, name, file, figure)?;
+    table(root, name, file, points)
+}
+
+/// Writes a figure of the charts.
+pub fn save(root: &Path, name: &str, file: &str, figure: Figure) -> Result<(), String> {
     let folder = root.join("docs/charts");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     figure
         .caption(&format!("cargo xtask chart {name}"))
         .save(&folder.join(file))
         .map_err(|e| e.to_string())?;
+    Ok(())
+}
+
+/// Prints the points and writes them as CSV. True if there are enough, on a front long enough, and what is shipped lies on it
+/// or near.
+pub fn table(root: &Path, name: &str, file: &str, points: &[Point]) -> Result<bool, String> {
+    let best = front(points);
+    let default = points.iter().position(|p| p.is_default);
     let mut csv = "setting,gives up,cost,error,standard error,on the front,as shipped\n".to_owned();
     println!(
         "{:<44} {:>10} {:>9} {:>9}  gives up",
@@ -110,7 +124,7 @@ pub fn draw(
             }
         );
     }
-    keep(&folder.join(format!("{file}.csv")), &csv)?;
+    keep(&root.join(format!("docs/charts/{file}.csv")), &csv)?;
     let off = default.map_or(f64::INFINITY, |k| above(points, &best, k));
     let held = points.len() >= 25 && best.len() >= 4 && off <= NEAR;
     let shipped = match off {
