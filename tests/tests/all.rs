@@ -8,5 +8,6 @@ mod physics; // whole scenes with closed forms
 mod properties; // random small scenes: stable when the check says so, invariants, units
 mod river; // a bed that rests, moves, and is refused an unstable step
 mod same_bits; // threads, vector paths, outputs and batches change no bit
+mod seeds; // several seeds in one command, their means, what is refused
 mod trouble; // folders that cannot be written, signals, physics that fails
 mod tune; // settings that hold, and none

@@ -95,7 +95,7 @@ fn in_dimension<D: Shaped + Slices>(
     let grains = start::grains::<D>(checked, &constants, &domain, &surfaces)?;
     let threads = choices
         .threads
-        .unwrap_or_else(|| as_many_as_pay(grains.len()))
+        .unwrap_or_else(|| threads_that_pay(grains.len()))
         .max(1);
     let lanes = choices.lanes.unwrap_or_else(Lanes::best);
     let mut plan = Plan::of(checked, &constants, grains.len(), threads, lanes.name());
@@ -405,7 +405,6 @@ fn gates_of<D: Dim, S: SpinState>(
         gates.push(Box::new(OutletGate {
             outlet: outlet.clone(),
             number,
-            seed: number as u64,
         }));
     }
     for (number, inlet) in scene.inlets.iter().enumerate() {
@@ -418,7 +417,8 @@ fn gates_of<D: Dim, S: SpinState>(
     gates
 }
 
-fn as_many_as_pay(grains: usize) -> usize {
+/// As many threads as pay for this number of grains.
+pub fn threads_that_pay(grains: usize) -> usize {
     let here = std::thread::available_parallelism().map_or(1, |n| n.get());
     (grains / GRAINS_PER_THREAD).clamp(1, here)
 }

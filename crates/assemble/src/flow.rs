@@ -14,8 +14,6 @@ pub(crate) struct OutletGate {
     pub outlet: Outlet,
     /// Its number among the gates.
     pub number: usize,
-    /// For the places of recycled grains.
-    pub seed: u64,
 }
 
 impl<D: Dim, S: SpinState> Gate<D, S> for OutletGate {
@@ -29,11 +27,11 @@ impl<D: Dim, S: SpinState> Gate<D, S> for OutletGate {
                 identity: view.identity(i),
                 gate: self.number,
             })),
-            Fate::Recycle(to) => {
-                let mut room = Room::new(view, to, view.kind(leaving[0]).diameter());
+            Fate::Recycle { into, seed } => {
+                let mut room = Room::new(view, into, view.kind(leaving[0]).diameter());
                 for i in leaving {
                     let identity = view.identity(i);
-                    let salt = [self.seed, u64::from(identity), view.time().to_bits()];
+                    let salt = [*seed, u64::from(identity), view.time().to_bits()];
                     // Without room the grain falls on and is asked again next time.
                     if let Some(position) = room.place(salt) {
                         out.push(Change::Move {

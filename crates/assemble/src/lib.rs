@@ -44,7 +44,7 @@ mod start;
 mod surfaces;
 mod water;
 
-pub use build::{Built, Choices, Hearer, Watch, build};
+pub use build::{Built, Choices, Hearer, Watch, build, threads_that_pay};
 pub use constants::{Constants, Law};
 pub use plan::{LimitLine, Plan};
 pub use simulation::{Grain, Machine, Simulation, Snapshot, Stop};

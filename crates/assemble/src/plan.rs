@@ -384,7 +384,7 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
     for outlet in &scene.outlets {
         let then = match outlet.then {
             Fate::Delete => "go",
-            Fate::Recycle(_) => "come back at a random place of its box",
+            Fate::Recycle { .. } => "come back at a random place of its box",
         };
         lines.push(format!(
             "outlet `{}`: grains that reach it are counted and {then}",

@@ -17,7 +17,7 @@ const CLAIM: &str = ".tsubu-run";
 const CLAIM_TEXT: &[u8] =
     b"A run of tsubu wrote this folder; a later run with --force may replace what it wrote.\n";
 
-/// Every name a run writes at the top of its folder, apart from `animation.*` and unfinished parts.
+/// Every name a run writes at the top of its folder, apart from `animation.*`, unfinished parts and the runs of seeds.
 const OURS: [&str; 8] = [
     "summary.json",
     "series.csv",
@@ -28,6 +28,9 @@ const OURS: [&str; 8] = [
     "scene.resolved.ron",
     CLAIM,
 ];
+
+/// Beginning of the name of a run's folder in the folder of several seeds; the seed follows.
+const SEED: &str = "seed-";
 
 /// Names that prove a run of ours wrote the folder; `figures` or `summary.json` could be anyone's.
 const PROOF: [&str; 2] = [CLAIM, "scene.resolved.ron"];
@@ -84,6 +87,15 @@ impl RunFolder {
                 cause,
             )),
         }
+    }
+
+    /// Makes and claims the folder `seed-<seed>` inside this one; of an earlier run of ours only what it did not write
+    /// is still there.
+    ///
+    /// # Errors
+    /// When something else is there already, or the machine refuses.
+    pub fn of_seed(&self, seed: u64) -> Result<Self, RecordError> {
+        Self::requested(&self.path(format!("{SEED}{seed}")), true)
     }
 
     fn numbered(base: &Path, stem: &str) -> Result<Self, RecordError> {
@@ -179,16 +191,37 @@ fn claim(root: &Path) -> Result<(), RecordError> {
 /// Removes what a run wrote; the proofs go last, so a removal that fails half way can be tried again.
 fn remove_ours(root: &Path, found: &[std::ffi::OsString]) -> Result<(), RecordError> {
     let is_proof = |name: &OsStr| PROOF.iter().any(|p| name == *p);
-    let ours = || found.iter().filter(|name| is_ours(name));
+    let ours = || found.iter().filter(|name| is_ours(root, name));
     let in_order = ours()
         .filter(|name| !is_proof(name))
         .chain(ours().filter(|name| is_proof(name)));
     for name in in_order {
         let path = root.join(name);
+        if is_seed(root, name) {
+            remove_seed(&path)?;
+            continue;
+        }
         remove(&path)
             .map_err(|e| RecordError::machine("the earlier run could not be removed", &path, e))?;
     }
     Ok(())
+}
+
+/// Removes what the run of a seed wrote, and its folder if nothing else is in it; else it stays ours.
+fn remove_seed(path: &Path) -> Result<(), RecordError> {
+    let found =
+        entries(path).map_err(|e| RecordError::machine("the folder could not be read", path, e))?;
+    remove_ours(path, &found)?;
+    match fs::remove_dir(path) {
+        Ok(()) => Ok(()),
+        Err(_) => claim(path),
+    }
+}
+
+/// Whether this is the folder of a seed, written by a run of ours.
+fn is_seed(root: &Path, name: &OsStr) -> bool {
+    let seed = name.to_str().and_then(|name| name.strip_prefix(SEED));
+    seed.is_some_and(|seed| seed.parse::<u64>().is_ok()) && root.join(name).join(CLAIM).is_file()
 }
 
 fn remove(path: &Path) -> io::Result<()> {
@@ -200,11 +233,12 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-fn is_ours(name: &OsStr) -> bool {
+fn is_ours(root: &Path, name: &OsStr) -> bool {
     let text = name.to_string_lossy();
     OURS.iter().any(|ours| name == *ours)
         || text.starts_with("animation.")
         || (text.starts_with('.') && text.ends_with(PART_SUFFIX))
+        || is_seed(root, name)
 }
 
 fn entries(path: &Path) -> io::Result<Vec<std::ffi::OsString>> {

@@ -216,3 +216,29 @@ fn runs_started_at_once_never_share() {
     assert_eq!(roots.len(), 8);
     assert_eq!(winners, 1);
 }
+
+#[test]
+fn the_runs_of_seeds_go_with_their_folder_and_notes_in_them_stay() {
+    let scratch = Scratch::new();
+    let path = scratch.join("bed");
+    let folder = RunFolder::create(Some(&path), "unused", false).unwrap();
+    for seed in [1, 2] {
+        let run = folder.of_seed(seed).unwrap();
+        fs::write(run.path("summary.json"), "x").unwrap();
+    }
+    fs::write(folder.path("seed-2/notes.txt"), "mine").unwrap();
+    // Not ours: no run claimed it, or its name is no seed's.
+    fs::create_dir(folder.path("seed-3")).unwrap();
+    fs::create_dir(folder.path("seed-bank")).unwrap();
+    is_refused(
+        RunFolder::create(Some(&path), "unused", false),
+        "already holds",
+    );
+    let folder = RunFolder::create(Some(&path), "unused", true).unwrap();
+    assert_eq!(names(&path), [CLAIM, "seed-2", "seed-3", "seed-bank"]);
+    let again = folder.of_seed(2).unwrap();
+    assert_eq!(names(again.root()), [CLAIM, "notes.txt"]);
+    // A later run of one seed alone replaces them all the same.
+    RunFolder::create(Some(&path), "unused", true).unwrap();
+    assert_eq!(names(&path), [CLAIM, "seed-2", "seed-3", "seed-bank"]);
+}

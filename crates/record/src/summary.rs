@@ -5,6 +5,8 @@ use serde::ser::{SerializeMap, Serializer};
 
 use crate::{RecordError, RunFolder, write_whole};
 
+mod mean;
+
 const NAME: &str = "summary.json";
 
 /// The facts and measured values of a run, in the order they were given.

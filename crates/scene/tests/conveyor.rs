@@ -135,7 +135,7 @@ fn measures_know_their_wall_and_their_outlet() {
     assert!(conveying.hopper.is_some());
     assert_eq!(conveying.section, [0.33, 0.54]);
     assert_eq!(scene.outlets[0].then, Fate::Delete);
-    assert!(matches!(scene.outlets[1].then, Fate::Recycle(region) if region.min.z == 0.7));
+    assert!(matches!(scene.outlets[1].then, Fate::Recycle { into, seed: 1 } if into.min.z == 0.7));
     assert_eq!(scene.inlets[0].solid_fraction, 0.3);
 }
 

@@ -54,6 +54,19 @@ proptest! {
         }
     }
 
+    /// The resolved text names every seed there is.
+    #[test]
+    fn one_seed_reaches_every_random_choice(mut scene in scene(), seed: u64) {
+        let any = scene.reseed(seed);
+        let text = scene.to_resolved_ron();
+        let seeds: Vec<&str> = text.split("seed: ").skip(1).collect();
+        prop_assert_eq!(any, !seeds.is_empty());
+        for rest in seeds {
+            let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+            prop_assert_eq!(digits, seed.to_string());
+        }
+    }
+
     #[test]
     fn a_resolved_scene_reads_back(scene in scene()) {
         let text = scene.to_resolved_ron();

@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::seeds::Seeds;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 use tsubu::engine::Lanes;
@@ -82,6 +83,9 @@ pub struct RunWish {
     /// Overwrite an earlier run in that folder
     #[arg(long)]
     pub force: bool,
+    /// Run the scene with several seeds, as 4 (seeds 1 to 4), 1,2,7 or 3..6, and give means with their standard errors; --threads then counts the threads of all runs together
+    #[arg(long, value_parser = Seeds::read, value_name = "N|LIST|FROM..TO")]
+    pub seeds: Option<Seeds>,
 }
 
 /// `tsubu check`.

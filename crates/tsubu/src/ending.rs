@@ -6,9 +6,17 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tsubu::assemble::{Plan, Simulation, Stop};
 use tsubu::engine::Health;
-use tsubu::model::Reading;
 use tsubu::record::{RunFolder, Summary};
 use tsubu::scene::Scene;
+
+/// What was drawn of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Pictures {
+    /// The animation.
+    pub film: Option<PathBuf>,
+    /// The figures, the most important first.
+    pub figures: Vec<PathBuf>,
+}
 
 /// How long a run took: in all, and in steps alone.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +34,7 @@ impl Spent {
     }
 }
 
-/// Writes `summary.json`.
+/// Writes `summary.json`, and returns it.
 pub fn summary(
     folder: &RunFolder,
     scene: &Scene,
@@ -35,7 +43,7 @@ pub fn summary(
     rows: &Rows,
     spent: Spent,
     ended: &str,
-) -> Result<(), Trouble> {
+) -> Result<Summary, Trouble> {
     let mut summary = Summary::new();
     summary.text("title", &scene.title);
     summary.text("version", env!("CARGO_PKG_VERSION"));
@@ -66,42 +74,41 @@ pub fn summary(
     }
     summary.list("sources", &plan.constants.sources);
     summary.table("series_units", &rows.units());
-    Ok(summary.write(folder)?)
+    summary.write(folder)?;
+    Ok(summary)
 }
 
-/// The closing words of a run that reached its end.
+/// The closing words of a run that reached its end, or of several with their means: `result` is its [`result`], `wall` the
+/// seconds it took.
 pub fn words(
-    run: &dyn Simulation,
-    plan: &Plan,
-    spent: Spent,
+    result: &str,
+    summary: &Summary,
+    wall: f64,
+    lambda: f64,
     folder: &Path,
-    film: Option<&PathBuf>,
-    figures: &[PathBuf],
+    pictures: &Pictures,
     scene_file: &Path,
 ) -> String {
-    let report = run.report();
-    let find = |name: &str| report.iter().find(|r| r.name == name);
-    let result = result(run, &find);
+    let number = |name: &str| summary.value(name).map_or(f64::NAN, |v| v.0);
+    let threads = number("threads");
     let mut text = format!(
-        "{result}\n{:.1} s of wall time, {:.1} million grain-steps/s on {} thread{}; results in {}",
-        spent.wall.as_secs_f64(),
-        spent.rate(run) / 1e6,
-        plan.threads,
-        if plan.threads == 1 { "" } else { "s" },
+        "{result}\n{wall:.1} s of wall time, {:.1} million grain-steps/s on {threads} thread{}; results in {}",
+        number("grain_steps_per_second") / 1e6,
+        if threads == 1.0 { "" } else { "s" },
         folder.display()
     );
-    if let Some(film) = film {
+    if let Some(film) = &pictures.film {
         text += &format!("\n  animation  {}", film.display());
     }
-    if let Some(figure) = figures.first() {
+    if let Some(figure) = pictures.figures.first() {
         text += &format!("\n  figure     {}", figure.display());
     }
-    let next = if find("transport").is_some() {
+    let next = if summary.value("transport").is_some() {
         "water.shields=0.2".to_owned()
     } else {
         // A level up is sixteen times cheaper, a level down sixteen times dearer.
-        let level = plan.constants.lambda.log2().round() as u32;
-        let next = match find("mass_rate") {
+        let level = lambda.log2().round() as u32;
+        let next = match summary.value("mass_rate") {
             Some(_) => level + 1,
             None if level > 2 => 2,
             None => 3,
@@ -116,55 +123,51 @@ pub fn words(
 }
 
 /// The result in one sentence, with its error and beside the theory if there is one.
-fn result<'r>(run: &dyn Simulation, find: &dyn Fn(&str) -> Option<&'r Reading>) -> String {
+pub fn result(summary: &Summary) -> String {
+    let find = |name: &str| summary.value(name);
+    let measured = |name: &str| find(name).filter(|v| v.0.is_finite());
+    let number = |name: &str| find(name).map_or(f64::NAN, |v| v.0);
     let give =
         |u: Option<f64>, digits: usize| u.map_or(String::new(), |u| format!(" ± {u:.digits$}"));
-    if let Some(rate) = find("mass_rate") {
-        let theory = find("ratio_to_theory").map_or(String::new(), |ratio| {
+    if let Some((rate, error)) = find("mass_rate") {
+        let theory = find("ratio_to_theory").map_or(String::new(), |(ratio, error)| {
             format!(
-                ", {:.3}{} of theory for a full screw (a = 1)",
-                ratio.value,
-                give(ratio.uncertainty, 3)
+                ", {ratio:.3}{} of theory for a full screw (a = 1)",
+                give(error, 3)
             )
         });
-        let steady = match find("steady") {
-            Some(steady) if steady.value > 0.5 => "",
-            _ => "; the rate was not steady yet: run longer with --until",
+        // The share of the runs whose rate was steady.
+        let steady = if number("steady") == 1.0 {
+            ""
+        } else {
+            "; the rate was not steady yet: run longer with --until"
         };
         return format!(
-            "Mass rate {:.3}{} kg/s{theory}{steady}.",
-            rate.value,
-            give(rate.uncertainty, 3)
+            "Mass rate {rate:.3}{} kg/s{theory}{steady}.",
+            give(error, 3)
         );
     }
-    if let Some(transport) = find("transport").filter(|transport| transport.value.is_finite()) {
-        let shields = find("shields").map_or(f64::NAN, |shields| shields.value);
-        let beside = find("ratio_to_meyer_peter_mueller")
-            .filter(|ratio| ratio.value.is_finite())
-            .map_or(String::new(), |ratio| {
-                format!(
-                    ", {:.2}{} of Meyer-Peter and Müller's",
-                    ratio.value,
-                    give(ratio.uncertainty, 2)
-                )
+    if let Some((transport, error)) = measured("transport") {
+        let beside = measured("ratio_to_meyer_peter_mueller")
+            .map_or(String::new(), |(ratio, error)| {
+                format!(", {ratio:.2}{} of Meyer-Peter and Müller's", give(error, 2))
             });
         return format!(
-            "Transport qB* = {:.3}{} at a Shields number of {shields:.3}{beside}.",
-            transport.value,
-            give(transport.uncertainty, 3)
+            "Transport qB* = {transport:.3}{} at a Shields number of {:.3}{beside}.",
+            give(error, 3),
+            number("shields")
         );
     }
-    match (find("angle_of_repose"), run.released_at()) {
-        (Some(angle), Some(released)) if angle.value.is_finite() => format!(
-            "Angle of repose {:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
-            angle.value,
-            give(angle.uncertainty, 1),
-            run.time() - released
+    match (measured("angle_of_repose"), find("released_at")) {
+        (Some((angle, error)), Some((released, _))) => format!(
+            "Angle of repose {angle:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
+            give(error, 1),
+            number("time") - released
         ),
         _ => format!(
             "{} grains, {:.4} s of simulated time.",
-            run.grains(),
-            run.time()
+            number("grains"),
+            number("time")
         ),
     }
 }

@@ -101,12 +101,14 @@ pub fn draw(
     Ok(files)
 }
 
-fn save(folder: &RunFolder, name: &str, figure: &Figure) -> Result<PathBuf, Trouble> {
+/// Saves a figure of a run; returns the SVG.
+pub fn save(folder: &RunFolder, name: &str, figure: &Figure) -> Result<PathBuf, Trouble> {
     let [svg, _png] = figure.save(&folder.path(format!("figures/{name}")))?;
     Ok(svg)
 }
 
-fn capital(name: &str) -> String {
+/// The name of a figure as its title.
+pub fn capital(name: &str) -> String {
     let words = name.replace('_', " ");
     let mut letters = words.chars();
     letters.next().map_or(String::new(), |first| {

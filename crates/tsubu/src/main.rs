@@ -12,6 +12,7 @@ mod mesh;
 mod progress;
 mod rows;
 mod run;
+mod seeds;
 mod shipped;
 mod trouble;
 mod tune;

@@ -1,6 +1,6 @@
 //! Progress: a bar where someone watches, a line now and then where the output goes to a file.
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 use tsubu::assemble::Simulation;
@@ -10,6 +10,8 @@ const LINE_EVERY: Duration = Duration::from_secs(20);
 
 /// Shows how far a run is.
 pub struct Progress {
+    /// Said before everything: which run it is, if there are several.
+    label: String,
     bar: Option<ProgressBar>,
     start: Instant,
     last_line: Instant,
@@ -18,14 +20,20 @@ pub struct Progress {
 impl Progress {
     /// Starts to watch.
     pub fn new() -> Self {
+        Self::among(&MultiProgress::new(), "")
+    }
+
+    /// Starts to watch one of several runs, with its bar among `bars`.
+    pub fn among(bars: &MultiProgress, label: &str) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
-            let bar = ProgressBar::new(1000);
+            let bar = bars.add(ProgressBar::new(1000));
             if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}") {
                 bar.set_style(style);
             }
             bar
         });
         Self {
+            label: label.to_owned(),
             bar,
             start: Instant::now(),
             last_line: Instant::now(),
@@ -48,7 +56,8 @@ impl Progress {
             None => (0.0, format!("settling, agitation {:.1e}", run.agitation())),
         };
         let text = format!(
-            "t = {:.4} s  {rate:.1} M grain-steps/s  {phase}",
+            "{}t = {:.4} s  {rate:.1} M grain-steps/s  {phase}",
+            self.label,
             run.time()
         );
         match &self.bar {
@@ -67,7 +76,7 @@ impl Progress {
     /// Says what comes after the steps, such as drawing.
     pub fn say(&self, what: &str) {
         if let Some(bar) = &self.bar {
-            bar.set_message(what.to_owned());
+            bar.set_message(format!("{}{what}", self.label));
         }
     }
 

@@ -2,18 +2,20 @@
 
 use crate::arguments::{RunWish, SceneWish};
 use crate::clock::Clock;
-use crate::ending::{self, Spent};
+use crate::ending::{self, Pictures, Spent};
 use crate::figures;
 use crate::film::{self, Film};
 use crate::progress::Progress;
 use crate::rows::Rows;
+use crate::seeds;
 use crate::trouble::Trouble;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use tsubu::assemble::{Choices, Stop, Watch, build};
-use tsubu::record::{FrameWriter, RunFolder, write_whole};
+use tsubu::assemble::{Built, Choices, Stop, Watch, build};
+use tsubu::model::Curve;
+use tsubu::record::{FrameWriter, RunFolder, Summary, write_whole};
 use tsubu::scene::{Checked, Source};
 
 /// Steps between two looks at the clock and at signals: short enough to stop at once, long enough not to matter.
@@ -78,38 +80,107 @@ pub fn choices(wish: &SceneWish, out: Option<&Path>) -> Choices {
 pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     let start = Instant::now();
     let checked = read(&wish.scene)?;
+    if let Some(seeds) = &wish.seeds {
+        return seeds::run(wish, seeds, &checked);
+    }
     let built = build(&checked, &choices(&wish.scene, wish.out.as_deref()))?;
-    let (mut run, plan) = (built.simulation, built.plan);
-    let stem = wish
-        .scene
-        .scene
+    let folder = RunFolder::create(wish.out.as_deref(), &stem(&wish.scene), wish.force)?;
+    tell!(
+        "{}: {} grains, step {:.3e} s, {} thread(s), into {}",
+        checked.scene.title,
+        built.plan.grains,
+        built.plan.constants.dt,
+        built.plan.threads,
+        folder.root().display()
+    );
+    let lambda = built.plan.constants.lambda;
+    let progress = Progress::new();
+    let ran = one(&checked, built, &folder, &until_signal(), progress, start)?;
+    match ran.end {
+        End::Over => {
+            say!(
+                "{}",
+                ending::words(
+                    &ending::result(&ran.summary),
+                    &ran.summary,
+                    start.elapsed().as_secs_f64(),
+                    lambda,
+                    folder.root(),
+                    &ran.pictures,
+                    &wish.scene.scene
+                )
+            );
+            Ok(0)
+        }
+        End::Failed(words) => Err(Trouble::Physics(format!(
+            "{words}\nnote: what was computed until then is in {}",
+            folder.root().display()
+        ))),
+        End::Stopped { time } => {
+            tell!(
+                "stopped by a signal at t = {time:.6} s; what was computed is in {}",
+                folder.root().display()
+            );
+            Ok(130)
+        }
+    }
+}
+
+/// The name of the scene's file, without its ending.
+pub fn stem(wish: &SceneWish) -> String {
+    wish.scene
         .file_stem()
-        .map_or("scene".into(), |s| s.to_string_lossy().into_owned());
-    let folder = RunFolder::create(wish.out.as_deref(), &stem, wish.force)?;
+        .map_or("scene".into(), |s| s.to_string_lossy().into_owned())
+}
+
+/// How a run ended.
+pub enum End {
+    /// As the scene says.
+    Over,
+    /// The physics failed, in words.
+    Failed(String),
+    /// A signal stopped it.
+    Stopped {
+        /// When, in s of simulated time.
+        time: f64,
+    },
+}
+
+/// A run that has ended.
+pub struct Ran {
+    /// How.
+    pub end: End,
+    /// What it left in `summary.json`.
+    pub summary: Summary,
+    /// The curves of its observers.
+    pub curves: Vec<Curve>,
+    /// What was drawn.
+    pub pictures: Pictures,
+}
+
+/// Runs a scene into a folder, to its end or until it is stopped.
+pub fn one(
+    checked: &Checked,
+    built: Built,
+    folder: &RunFolder,
+    stopped: &AtomicBool,
+    mut progress: Progress,
+    start: Instant,
+) -> Result<Ran, Trouble> {
+    let (mut run, plan) = (built.simulation, built.plan);
     write_whole(
         &folder.path("scene.resolved.ron"),
         checked.scene.to_resolved_ron().as_bytes(),
     )?;
     folder.make("figures")?;
-    tell!(
-        "{}: {} grains, step {:.3e} s, {} thread(s), into {}",
-        checked.scene.title,
-        plan.grains,
-        plan.constants.dt,
-        plan.threads,
-        folder.root().display()
-    );
-
-    let stopped = until_signal();
     let output = checked.scene.output;
     let clock = Clock::of(&output, &plan);
-    let mut rows = Rows::start(&folder, &mut *run)?;
+    let mut rows = Rows::start(folder, &mut *run)?;
     let mut frames = output
         .frames
-        .then(|| FrameWriter::new(&folder))
+        .then(|| FrameWriter::new(folder))
         .transpose()?;
     let mut film = output.animation.then(Film::new);
-    let mut progress = Progress::new();
     let mut stepping = Duration::ZERO;
     let mut last = (0, 0);
     let mut shoot = |run: &dyn tsubu::assemble::Simulation| -> Result<(), Trouble> {
@@ -160,55 +231,34 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
         Some(Stop::Trouble(_)) => "trouble",
         None => "stopped by a signal",
     };
-    let summarise = |rows: &Rows| -> Result<Spent, Trouble> {
+    let summarise = |rows: &Rows| {
         let wall = start.elapsed();
         let spent = Spent { wall, stepping };
-        ending::summary(&folder, &checked.scene, &plan, &*run, rows, spent, ended)?;
-        Ok(spent)
+        ending::summary(folder, &checked.scene, &plan, &*run, rows, spent, ended)
     };
     // Before the pictures, which may fail, and again with the time that they took.
     summarise(&rows)?;
     progress.say("drawing");
-    let command = command_line();
-    let drawn = film
+    let film = film
         .as_ref()
-        .map(|f| f.draw(&folder, run.released_at()))
+        .map(|f| f.draw(folder, run.released_at()))
         .transpose()?
-        .flatten();
-    let drawings = figures::draw(&folder, &*run, &rows, &command)?;
+        .flatten()
+        .map(|drawn| drawn.0);
+    let figures = figures::draw(folder, &*run, &rows, &command_line())?;
     progress.finish();
-    let spent = summarise(&rows)?;
+    let summary = summarise(&rows)?;
     rows.finish()?;
-    match stop {
-        Some(Stop::Over) => {
-            say!(
-                "{}",
-                ending::words(
-                    &*run,
-                    &plan,
-                    spent,
-                    folder.root(),
-                    drawn.as_ref().map(|d| &d.0),
-                    &drawings,
-                    &wish.scene.scene
-                )
-            );
-            Ok(0)
-        }
-        Some(stop) => Err(Trouble::Physics(format!(
-            "{}\nnote: what was computed until then is in {}",
-            ending::failure(&stop, &plan),
-            folder.root().display()
-        ))),
-        None => {
-            tell!(
-                "stopped by a signal at t = {:.6} s; what was computed is in {}",
-                run.time(),
-                folder.root().display()
-            );
-            Ok(130)
-        }
-    }
+    Ok(Ran {
+        end: match stop {
+            Some(Stop::Over) => End::Over,
+            Some(stop) => End::Failed(ending::failure(&stop, &plan)),
+            None => End::Stopped { time: run.time() },
+        },
+        summary,
+        curves: run.curves(),
+        pictures: Pictures { film, figures },
+    })
 }
 
 /// The command as it was typed, for the captions of figures.

@@ -20,6 +20,7 @@ pub(crate) enum RawFate {
     Recycle {
         min: Triple<Quantity<Length>>,
         max: Triple<Quantity<Length>>,
+        seed: Option<Whole>,
     },
 }
 

@@ -12,7 +12,7 @@ impl Scene {
         for outlet in &self.outlets {
             let then = match &outlet.then {
                 Fate::Delete => "Delete".into(),
-                Fate::Recycle(corners) => format!("Recycle({})", region(corners)),
+                Fate::Recycle { into, seed } => format!("Recycle({}, seed: {seed})", region(into)),
             };
             let (name, region) = (text(&outlet.name), region(&outlet.region));
             writeln!(

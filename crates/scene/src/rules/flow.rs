@@ -17,7 +17,7 @@ impl Rules<'_> {
         let mut outlets: Vec<Outlet> = Vec::with_capacity(raw_outlets.len());
         for (i, raw) in raw_outlets.into_iter().enumerate() {
             let twice = outlets.iter().any(|outlet| outlet.name == raw.name);
-            outlets.push(self.outlet(&format!("outlets[{i}]"), raw, twice, domain));
+            outlets.push(self.outlet(i, raw, twice, domain));
         }
         let mut inlets: Vec<Inlet> = Vec::with_capacity(raw_inlets.len());
         for (i, raw) in raw_inlets.into_iter().enumerate() {
@@ -27,8 +27,8 @@ impl Rules<'_> {
         }
         // A grain that is put where it leaves at once would be counted for ever.
         for (i, outlet) in outlets.iter().enumerate() {
-            if let Fate::Recycle(region) = &outlet.then {
-                self.outside(&format!("outlets[{i}].then"), region, &outlets);
+            if let Fate::Recycle { into, .. } = &outlet.then {
+                self.outside(&format!("outlets[{i}].then"), into, &outlets);
             }
         }
         for (i, inlet) in inlets.iter().enumerate() {
@@ -37,7 +37,8 @@ impl Rules<'_> {
         (outlets, inlets)
     }
 
-    fn outlet(&mut self, path: &str, raw: RawOutlet, twice: bool, domain: &Domain) -> Outlet {
+    fn outlet(&mut self, number: usize, raw: RawOutlet, twice: bool, domain: &Domain) -> Outlet {
+        let path = &format!("outlets[{number}]");
         self.name(path, ["an outlet", TWO], &raw.name, twice);
         let region_path = format!("{path}.region");
         let region = self.region(&region_path, "region", &raw.region);
@@ -54,11 +55,14 @@ impl Rules<'_> {
         }
         let then = match raw.then {
             None | Some(RawFate::Delete) => Fate::Delete,
-            Some(RawFate::Recycle { min, max }) => {
+            Some(RawFate::Recycle { min, max, seed }) => {
                 let path = format!("{path}.then");
                 let region = self.region(&path, "box", &RawRegion { min, max });
                 self.inside(&path, "box", &region, domain);
-                Fate::Recycle(region)
+                Fate::Recycle {
+                    into: region,
+                    seed: seed.map_or(number as u64, |seed| seed.0),
+                }
             }
         };
         Outlet {

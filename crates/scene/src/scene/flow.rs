@@ -37,8 +37,13 @@ pub enum Fate {
     /// It is gone.
     #[default]
     Delete,
-    /// It is put back at a random place in this box.
-    Recycle(Region),
+    /// It is put back at a random place.
+    Recycle {
+        /// In this box.
+        into: Region,
+        /// Seed of the random places.
+        seed: u64,
+    },
 }
 
 /// Where grains come in, from the start on.

@@ -1,6 +1,6 @@
 //! The random choices of a scene, and one seed for all of them.
 
-use super::{Initial, Scene, Turbulence};
+use super::{Fate, Initial, Scene, Turbulence};
 
 impl Scene {
     /// Gives this seed to every random choice: the places of a fill, the heights and vacancies of a bed, the turbulence,
@@ -11,6 +11,12 @@ impl Scene {
             Initial::Fill(fill) => seeds.push(&mut fill.seed),
             Initial::Bed(bed) => seeds.push(&mut bed.seed),
             Initial::File(_) | Initial::Grains(_) => {}
+        }
+        for outlet in &mut self.outlets {
+            match &mut outlet.then {
+                Fate::Recycle { seed, .. } => seeds.push(seed),
+                Fate::Delete => {}
+            }
         }
         seeds.extend(self.inlets.iter_mut().map(|inlet| &mut inlet.seed));
         match self.water.as_mut().map(|water| &mut water.turbulence) {

@@ -10,7 +10,8 @@ use super::{region, size};
 /// Outlets at x below zero, and boxes in which grains are put above it: a grain put into an outlet is refused.
 pub fn flow() -> impl Strategy<Value = (Vec<Outlet>, Vec<Inlet>)> {
     let source = || region().prop_map(|region| moved(region, 1e4));
-    let then = prop_oneof![Just(Fate::Delete), source().prop_map(Fate::Recycle)];
+    let recycle = (source(), any::<u64>()).prop_map(|(into, seed)| Fate::Recycle { into, seed });
+    let then = prop_oneof![Just(Fate::Delete), recycle];
     let outlet = (region(), then).prop_map(|(region, then)| Outlet {
         name: String::new(),
         region: moved(region, -1e4),

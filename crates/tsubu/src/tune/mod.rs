@@ -8,7 +8,7 @@ mod report;
 mod verdict;
 
 use crate::arguments::TuneWish;
-use crate::run::{choices, read_source, until_signal};
+use crate::run::{choices, read_source, stem, until_signal};
 use crate::trouble::Trouble;
 use knobs::Notch;
 use pilot::{Ended, Outcome, pilot, reading};
@@ -48,15 +48,10 @@ pub fn tune(wish: &TuneWish) -> Result<u8, Trouble> {
     let start = Instant::now();
     let source = read_source(&wish.scene)?;
     let checked = source.check()?;
-    let stem = wish
-        .scene
-        .scene
-        .file_stem()
-        .map_or("scene".into(), |s| s.to_string_lossy());
     let out = wish
         .out
         .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("out/{stem}-tune")));
+        .unwrap_or_else(|| PathBuf::from(format!("out/{}-tune", stem(&wish.scene))));
     let choices = choices(&wish.scene, Some(&out));
     quantity_is_there(&wish.quantity, build(&checked, &choices)?)?;
     let knobs = knobs::knobs(&checked.scene, is_steady(&checked.scene));
