@@ -12,7 +12,7 @@ const SCENE: &str = r#"(
     ),
     domain: (x: Periodic("20 mm")),
     initial: (bed: (layers: 10)),
-    water: (shields: 0.5),
+    water: (shields: 0.5, begins: "0.4 s"),
     time: (step: PerPeriod(20), until: "1 s"),
 )"#;
 
@@ -76,7 +76,7 @@ fn what_is_left_out_has_its_default() {
     assert_eq!(scene.initial, Initial::Bed(bed));
     let water = Water {
         flow: Flow::Shields(0.5),
-        begins: 0.0,
+        begins: 0.4,
         density: 1000.0,
         added_mass: 0.5,
         drag: 0.4,
@@ -280,7 +280,7 @@ fn the_way_to_give_the_strength_that_is_set_last_is_taken() {
 #[test]
 fn each_field_of_the_water_can_be_set() {
     let set = water(&[
-        "water.begins=0.4 s",
+        "water.begins=0.3 s",
         "water.density=1.03 g/cm3",
         "water.added_mass=0",
         "water.drag=1.2",
@@ -292,7 +292,7 @@ fn each_field_of_the_water_can_be_set() {
     ]);
     let expected = Water {
         flow: Flow::Shields(0.5),
-        begins: 0.4,
+        begins: 0.3,
         density: 1030.0,
         added_mass: 0.0,
         drag: 1.2,
@@ -338,4 +338,19 @@ fn the_transport_is_measured_where_there_is_water() {
     assert_eq!(skip(&["measures.bed=()"]), Some(0.25));
     assert_eq!(skip(&["measures=()"]), Some(0.25));
     assert!(with(&["water=None", "measures.bed=()"]).is_err());
+}
+
+/// Paper B lets ten layers of 0.5 mm fall for 0.4 s.
+#[test]
+fn water_that_finds_its_bed_waits_until_there_is_one() {
+    let now = "water.begins=0 s";
+    let error = with(&[now]).expect_err("no bed at the start").to_string();
+    for words in ["find no bed", "begins: \"400 ms\"", "datum: Given"] {
+        assert!(error.contains(words), "{error}");
+    }
+    assert!(with(&[now, "water.datum=Frozen"]).is_err());
+    assert_eq!(water(&[now, r#"water.datum=Given("3 mm")"#]).begins, 0.0);
+    // Every grain counts as bed then, contacts or not.
+    assert_eq!(water(&[now, "water.bed_contacts=0"]).begins, 0.0);
+    assert_eq!(water(&["water.begins=1 us"]).begins, 1e-6);
 }

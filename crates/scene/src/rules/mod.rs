@@ -123,6 +123,7 @@ impl<'a> Rules<'a> {
             output,
         };
         self.stillness(&scene);
+        self.bed_has_fallen(&scene);
         Some(scene)
     }
 

@@ -2,7 +2,7 @@
 
 use super::Rules;
 use crate::raw::{RawDatum, RawTurbulence, RawWater};
-use crate::scene::{Datum, Flow, FlowProfile, Grains, Initial, Turbulence, Water};
+use crate::scene::{Datum, Flow, FlowProfile, Grains, Initial, Scene, Turbulence, Water};
 
 /// ρ of the water in kg/m³ when the scene does not say.
 const DENSITY: f64 = 1000.0;
@@ -202,6 +202,29 @@ impl Rules<'_> {
             self.sinks(raw, grains);
             self.coarse_drag(raw, grains);
         }
+    }
+
+    /// A bed falls from its lattice: water that looks for it at once finds grains without contacts.
+    pub(super) fn bed_has_fallen(&mut self, scene: &Scene) {
+        let (Some(water), Initial::Bed(bed)) = (&scene.water, &scene.initial) else {
+            return;
+        };
+        let looks = !matches!(water.datum, Datum::Given(_)) && water.bed_contacts > 0;
+        if water.begins != 0.0 || !looks {
+            return;
+        }
+        // Paper B gives ten layers of 0.5 mm 0.4 s: twelve free falls through them.
+        let thick = bed.layers as f64 * bed.spacing * scene.grains.diameter;
+        let settled = 12e3 * (2.0 * thick / scene.gravity).sqrt();
+        let digit = 10_f64.powf(settled.log10().floor()).max(1.0);
+        let settled = (settled / digit).ceil() * digit;
+        self.refuse(
+            "water.begins",
+            "the water begins at once, but the bed has yet to fall together: it would find no bed to flow over",
+            format!(
+                "write begins: \"{settled} ms\" in the block “water” (long enough for such a bed as a rule; time.until counts from the start), or datum: Given(\"…\")"
+            ),
+        );
     }
 
     fn sinks(&mut self, raw: &RawWater, grains: &Grains) {
