@@ -88,6 +88,35 @@ fn a_step_over_the_limit_of_the_packing_is_refused_when_it_lies() {
     assert_eq!(named(&report, "step_over_limit"), used);
 }
 
+/// The same bed without water is weighed after 10 000 steps, then after 20 000 and so on.
+#[test]
+fn a_dry_bed_is_held_against_the_limit_of_its_packing_too() {
+    let dry = ["water=None", "time.until=0.11 s"];
+    let (stop, _, report) = ran(&dry, &Choices::default());
+    assert_eq!(stop, Some(Stop::Over));
+    let used = named(&report, "step_over_limit");
+    assert!(used > 0.1 && used < 1.0, "{used}");
+    // A pair of grains bears this step, the packing does not.
+    let over = [
+        "grains.law.constants.cn=1.3",
+        "time.step=Exactly(\"10 us\")",
+    ];
+    let over = [&dry[..], &over].concat();
+    let (stop, _, report) = ran(&over, &Choices::default());
+    let Some(Stop::UnstablePacking { time, used }) = stop else {
+        panic!("{stop:?}")
+    };
+    assert!((time - 0.1).abs() < 1e-9 && used >= 1.0, "{used} at {time}");
+    assert_eq!(named(&report, "step_over_limit"), used);
+    let allowed = Choices {
+        allow_unstable: true,
+        ..Choices::default()
+    };
+    let (stop, _, report) = ran(&over, &allowed);
+    assert_eq!(stop, Some(Stop::Over));
+    assert!(named(&report, "step_over_limit") >= used);
+}
+
 /// Water over grains that have no contacts has no bottom.
 #[test]
 fn water_that_begins_before_there_is_a_bed_says_so() {

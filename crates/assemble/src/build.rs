@@ -65,6 +65,9 @@ pub struct Built {
 /// (`cargo run -p tsubu-engine --example packing` with 1 and 2 threads on heads of packing.csv).
 const GRAINS_PER_THREAD: usize = 2500;
 
+/// Steps after which the packing of a dry scene is first held against its limit: that costs some hundred steps.
+const WEIGH_FROM: u64 = 10_000;
+
 /// Builds the simulation of a checked scene.
 pub fn build(checked: &Checked, choices: &Choices) -> Result<Built, SceneError> {
     match checked.scene.space {
@@ -255,6 +258,8 @@ impl<D: Layout + Slices> Parts<'_, D> {
             lost_bed
         });
         let begins = scene.water.as_ref().map(|water| water.begins);
+        let springs = matches!(self.constants.law, Law::SpringDashpot { .. });
+        let weigh_again = springs && begins.is_none();
         let movers: Vec<bool> = scene.walls.iter().map(|w| w.motion.is_some()).collect();
         Box::new(Running::<D, S, K, L, W, T> {
             shells: self
@@ -277,8 +282,11 @@ impl<D: Layout + Slices> Parts<'_, D> {
             },
             lost_bed: water,
             // Grains that turn have stiffer motions than the tables of limits know.
-            weighs_released: matches!(self.constants.law, Law::SpringDashpot { .. }),
-            weigh_at: begins.map(|t| (t / self.constants.dt).round() as u64),
+            weighs_released: springs,
+            weigh_at: begins
+                .map(|t| (t / self.constants.dt).round() as u64)
+                .or(weigh_again.then_some(WEIGH_FROM)),
+            weigh_again,
             refuse_unstable: !self.allow_unstable,
             used: None,
             law_after,

@@ -152,13 +152,15 @@ pub(crate) struct Running<
     pub deep: f64,
     /// Set by the water when it finds no bed.
     pub lost_bed: Option<Arc<AtomicBool>>,
-    /// The step at which the limit of the packing as it lies is worked out.
+    /// The next step at which the limit of the packing as it lies is worked out.
     pub weigh_at: Option<u64>,
     /// True if it is worked out at the release.
     pub weighs_released: bool,
+    /// True if it is worked out again after twice as many steps each time, so that it costs ever less.
+    pub weigh_again: bool,
     /// True if a step over that limit ends the run.
     pub refuse_unstable: bool,
-    /// Share of the limit that the packing used then.
+    /// The largest share of the limit that the packing used then.
     pub used: Option<f64>,
     /// The law from the release on, if another one holds while the grains settle.
     pub law_after: Option<L>,
@@ -198,7 +200,7 @@ where
     /// How much of the limit of an explicit step the packing uses as it lies now.
     fn weigh(&mut self) {
         let used = self.world.stiffest_mode() / 4.0;
-        self.used = Some(used);
+        self.used = Some(self.used.map_or(used, |before| before.max(used)));
         if used >= 1.0 && self.refuse_unstable {
             self.trouble = Some(Stop::UnstablePacking {
                 time: self.world.now(),
@@ -284,10 +286,15 @@ where
                 self.trouble = Some(Stop::NoBed {
                     time: self.world.now(),
                 });
-            } else if self.weigh_at == Some(here) {
-                self.weigh();
-            } else if !self.gates.is_empty() && self.world.steps().is_multiple_of(self.gate_every) {
-                self.decide();
+            } else {
+                if self.weigh_at == Some(here) {
+                    self.weigh();
+                    self.weigh_at = self.weigh_again.then_some(2 * here);
+                }
+                let is_due = !self.gates.is_empty() && here.is_multiple_of(self.gate_every);
+                if is_due && self.trouble.is_none() {
+                    self.decide();
+                }
             }
         }
         self.world.steps() - start
