@@ -88,6 +88,21 @@ fn a_step_over_the_limit_of_the_packing_is_refused_when_it_lies() {
     assert_eq!(named(&report, "step_over_limit"), used);
 }
 
+/// A bed of the plane costs less a grain than the same in space: no second line for the spin, no third coordinate, fewer
+/// neighbours. What a grain costs by itself is held to the byte in the engine's tests.
+#[test]
+fn a_plane_bed_stores_less_than_one_in_space() {
+    let bytes = |sets: &[&str]| {
+        let built = build(&check(BED, sets), &Choices::default()).unwrap_or_else(|e| panic!("{e}"));
+        let mut run = built.simulation;
+        run.advance(100);
+        run.bytes_per_grain()
+    };
+    let plane = bytes(&[]);
+    let space = bytes(&["space=Space"]);
+    assert!(plane > 116.0 && plane + 96.0 < space, "{plane} {space}");
+}
+
 /// The same bed without water is weighed after 10 000 steps, then after 20 000 and so on.
 #[test]
 fn a_dry_bed_is_held_against_the_limit_of_its_packing_too() {

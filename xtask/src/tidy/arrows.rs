@@ -167,6 +167,31 @@ mod tests {
         );
     }
 
+    /// A program of the engine alone, without water, links none: nothing that the engine stands on sees it.
+    #[test]
+    fn the_engine_stands_on_no_water_no_law_no_mesh_and_no_scene() {
+        let row = |name: &str| {
+            ARROWS
+                .iter()
+                .find(|row| row.0 == name)
+                .map_or(&[][..], |row| row.1)
+        };
+        let mut below = vec!["engine"];
+        let mut at = 0;
+        while let Some(&name) = below.get(at) {
+            below.extend(
+                row(name)
+                    .iter()
+                    .filter(|n| !below.contains(n))
+                    .collect::<Vec<_>>(),
+            );
+            at += 1;
+        }
+        for above in ["stream", "contact", "sdf", "scene", "measure", "record"] {
+            assert!(!below.contains(&above), "{below:?}");
+        }
+    }
+
     #[test]
     fn a_fenced_dependency_elsewhere_is_found() {
         assert_eq!(
