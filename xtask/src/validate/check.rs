@@ -8,10 +8,9 @@ pub enum Evidence {
     /// A closed form, a quadrature or an exact property.
     Analytic,
     /// Another program.
-    #[allow(dead_code)] // named by the house's tiers of evidence; its first suite is to come
     CrossCode,
     /// A measurement in a laboratory.
-    #[allow(dead_code)] // as above
+    #[allow(dead_code)] // named by the house's tiers of evidence; its first suite is to come
     Experiment,
 }
 

@@ -45,8 +45,7 @@ impl Report {
         tolerance: Tolerance,
         note: &str,
     ) {
-        let check = Check::new(
-            self.suite,
+        self.add(
             name.into(),
             expected,
             got,
@@ -54,6 +53,37 @@ impl Report {
             Evidence::Analytic,
             note,
         );
+    }
+
+    /// The same against what another program gave.
+    pub fn cross_code(
+        &mut self,
+        name: impl Into<String>,
+        expected: f64,
+        got: f64,
+        tolerance: Tolerance,
+        note: &str,
+    ) {
+        self.add(
+            name.into(),
+            expected,
+            got,
+            tolerance,
+            Evidence::CrossCode,
+            note,
+        );
+    }
+
+    fn add(
+        &mut self,
+        name: String,
+        expected: f64,
+        got: f64,
+        tolerance: Tolerance,
+        evidence: Evidence,
+        note: &str,
+    ) {
+        let check = Check::new(self.suite, name, expected, got, tolerance, evidence, note);
         if !check.pass {
             eprintln!(
                 "  FAILED {}: expected {}, got {}",

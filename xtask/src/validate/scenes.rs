@@ -19,13 +19,20 @@ pub fn changed(scene: &Path, sets: &[String]) -> Result<Source, String> {
 /// `gamma` is the damping at n = 0 in kg/s.
 pub fn from_places(coarse: u32, gamma: f64, file: &Path) -> [String; 4] {
     let lambda = f64::from(1u32 << coarse);
+    let damping = format!(
+        "grains.law.damping=Equal(\"{} kg/s\")",
+        gamma * lambda * lambda
+    );
+    let [level, diameter, places] = listed(coarse, file);
+    [level, diameter, damping, places]
+}
+
+/// The same without the law.
+pub fn listed(coarse: u32, file: &Path) -> [String; 3] {
+    let lambda = f64::from(1u32 << coarse);
     [
         "grains.coarse=0".to_owned(),
         format!("grains.diameter={} mm", 1.350 * lambda),
-        format!(
-            "grains.law.damping=Equal(\"{} kg/s\")",
-            gamma * lambda * lambda
-        ),
         format!("initial.file={}", file.display()),
     ]
 }

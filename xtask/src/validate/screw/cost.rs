@@ -6,6 +6,7 @@ use crate::validate::scenes::build_on_one_thread;
 use std::path::Path;
 use std::time::Instant;
 use tsubu_assemble::Simulation;
+use tsubu_scene::Source;
 
 /// Rounds in which all ways take their turn, and steps of a turn: 5 ms, in which hardly a grain moves by a tenth of its size.
 const ROUNDS: usize = 7;
@@ -17,7 +18,8 @@ const AWAY: &str = "Ball(centre: (\"-90 m\", \"0 m\", \"0 m\"), radius: \"1 mm\"
 
 /// One way to say the walls, and the ns that a grain-step takes with it.
 pub struct Way {
-    name: String,
+    /// As a table calls it.
+    pub name: String,
     run: Box<dyn Simulation>,
     /// The best of its turns.
     pub cost: f64,
@@ -36,7 +38,12 @@ impl Way {
             .iter()
             .map(|(wall, shape)| format!("walls.{wall}.shape={shape}"))
             .collect();
-        let mut run = build_on_one_thread(&case.in_flow(root, print, &sets)?)?.simulation;
+        Self::of(name, &case.in_flow(root, print, &sets)?)
+    }
+
+    /// Any scene on one thread.
+    pub fn of(name: &str, source: &Source) -> Result<Self, String> {
+        let mut run = build_on_one_thread(source)?.simulation;
         run.look();
         run.advance(STEPS);
         Ok(Self {

@@ -8,7 +8,7 @@ use crate::validate::scenes::changed;
 use std::path::Path;
 
 /// The shipped scene.
-const SCENE: &str = "scenarios/screw_feeder_full.ron";
+pub const SCENE: &str = "scenarios/screw_feeder_full.ron";
 
 /// What the run measured, from the folder of finished runs or run now, beside the feeder with a seventh of the grains.
 pub fn run(

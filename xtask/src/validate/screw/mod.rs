@@ -5,6 +5,7 @@
 //! a definition of a, and how near a is to 1 is what the charts say.
 
 mod cost;
+mod friction;
 mod full;
 mod grains;
 mod kinds;
@@ -13,6 +14,7 @@ mod levels;
 mod plug;
 mod runs;
 mod section;
+mod turning;
 
 use super::check::Tolerance;
 use super::kept::Measured;
@@ -23,7 +25,7 @@ use tsubu_picture::Figure;
 
 /// Seven speeds at n = 3, the same with a screw of grains and two with the other reading of walls, more screws of grains,
 /// comparisons at n = 4, the ladder, and 200 000 grains, which are a third of it.
-pub const FULL_GRAIN_STEPS: f64 = 7.5e11 + ladder::GRAIN_STEPS;
+pub const FULL_GRAIN_STEPS: f64 = 7.5e11 + ladder::GRAIN_STEPS + friction::GRAIN_STEPS;
 
 /// The rate that is compared: that in the tube. It is that of the outlet (a check below) with a smaller error.
 const TUBE: &str = "mass_rate_from_section";
@@ -73,6 +75,7 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     report.progress(&format!("{compared} comparisons at n = 4"));
     kinds::run(report, &root, print, &all)?;
     cost::run(report, &root, print)?;
+    friction::run(report, &root, print, &all)?;
     grains::run(report, &all)?;
     let of_grains = grains::at_speeds(report, &SPEEDS, &all)?;
     against_speed(report, surface, &of_grains)?;

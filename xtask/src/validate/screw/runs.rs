@@ -4,9 +4,10 @@
 
 use crate::validate::kept::{self, Flow, Measured};
 use crate::validate::scenes::{
-    build_on_one_thread, changed, from_places, keep, places, until_released,
+    build_on_one_thread, changed, from_places, keep, listed, places, until_released,
 };
 use std::path::{Path, PathBuf};
+use tsubu_contact::Repulsion;
 use tsubu_scene::Source;
 
 /// What the screw is made of.
@@ -88,6 +89,8 @@ pub struct Case {
     pub kind: Kind,
     /// The casing only repels (physics of paper A's fig. 4).
     pub smooth: bool,
+    /// Grains turn, with this friction between them and e = 0.5: law `SpringDashpot`, as stiff at contact as paper A's.
+    pub coulomb: Option<f64>,
 }
 
 impl Case {
@@ -103,6 +106,15 @@ impl Case {
             at_centres: false,
             kind: Kind::Grid,
             smooth: false,
+            coulomb: None,
+        }
+    }
+
+    /// The same of grains that turn, with this friction between them.
+    pub fn with_coulomb(self, friction: f64) -> Self {
+        Self {
+            coulomb: Some(friction),
+            ..self
         }
     }
 
@@ -117,7 +129,29 @@ impl Case {
     /// As the table calls it.
     pub fn name(&self) -> String {
         let reading = if self.at_centres { ", s = R" } else { "" };
-        format!("n = {}, {} r/min{reading}", self.coarse, self.rpm)
+        let law = if self.coulomb.is_some() {
+            format!(", Coulomb friction, E/{}", self.soften)
+        } else {
+            String::new()
+        };
+        format!("n = {}, {} r/min{reading}{law}", self.coarse, self.rpm)
+    }
+
+    /// Changes to the law of the grains; of those already coarse if it is to be at level `at` outright.
+    pub fn law(&self, at: u32) -> Vec<String> {
+        let Some(friction) = self.coulomb else {
+            return vec![format!("grains.soften={}", self.soften)];
+        };
+        let sigma = Repulsion::sigma_for_diameter(1.350e-3);
+        let coke = Repulsion::from_young_modulus(3.096e9, sigma, 0.0, 0.0, 1.350e-3);
+        let stiffness = coke.stiffness() / self.soften * f64::from(1u32 << at);
+        vec![
+            format!(
+                "grains.law=SpringDashpot(constants: FromRestitution(normal_stiffness: \"{stiffness} N/m\", restitution: 0.5), poisson: 0.3, friction: {friction}, tension: NoPull)"
+            ),
+            "grains.soften=None".to_owned(),
+            "grains.softened_damping=None".to_owned(),
+        ]
     }
 
     /// How the walls are read, as names of files say it.
@@ -137,14 +171,15 @@ impl Case {
         60.0 * 9.5 / self.rpm
     }
 
-    fn sets(&self) -> Vec<String> {
+    /// The changes.
+    pub fn sets(&self) -> Vec<String> {
         let mut sets = vec![
             format!("grains.coarse={}", self.coarse),
-            format!("grains.soften={}", self.soften),
             format!("walls.screw.motion.turn.rate=-{} rpm", self.rpm),
             format!("time.until={} s", self.until()),
             "still.at_most=10 s".to_owned(),
         ];
+        sets.extend(self.law(0));
         let centre = if self.at_centres { "Centre" } else { "Surface" };
         for wall in ["screw", "casing", "hopper"] {
             let made_of_grains = wall == "screw" && matches!(self.kind, Kind::Grains(_));
@@ -175,21 +210,26 @@ impl Case {
         } = self;
         let place = self.place();
         let damping = if self.keeps_restitution { "n" } else { "" };
+        let law = match self.coulomb {
+            Some(friction) => format!("-coulomb{friction}"),
+            None => String::new(),
+        };
         root.join(format!(
-            "target/validate/screw/{fingerprint:016x}-n{coarse}-{rpm}rpm-s{soften}{damping}-t{tangential}-mu{friction}-{place}-{kind:?}-{:.2}s{what}.csv",
+            "target/validate/screw/{fingerprint:016x}-n{coarse}-{rpm}rpm-s{soften}{damping}-t{tangential}-mu{friction}-{place}-{kind:?}{law}-{:.2}s{what}.csv",
             self.until()
         ))
     }
 
-    /// Places of the settled grains, made once for each level, reading of the walls and screw of grains: other screws
+    /// Places of the settled grains, made once for each level, reading of the walls, screw of grains and law: other screws
     /// share theirs.
     fn bed(&self, root: &Path, fingerprint: u64) -> Result<PathBuf, String> {
         let (kind, of_grains) = match self.kind {
             Kind::Grains(radius) => (self.kind, format!("-Grains({radius})")),
             _ => (Kind::Grid, String::new()),
         };
+        let law = self.coulomb.map_or("", |_| "-coulomb");
         let file = root.join(format!(
-            "target/validate/screw/{fingerprint:016x}-n{}-{}{of_grains}-bed.csv",
+            "target/validate/screw/{fingerprint:016x}-n{}-{}{of_grains}{law}-bed.csv",
             self.coarse,
             self.place()
         ));
@@ -198,6 +238,7 @@ impl Case {
                 at_centres: self.at_centres,
                 smooth: self.smooth,
                 kind,
+                coulomb: self.coulomb.map(|_| 0.413),
                 ..Case::of(self.coarse, 60.0)
             };
             let source = changed(&root.join(SCENE), &settling.sets())?;
@@ -211,7 +252,13 @@ impl Case {
     /// The scene of the run with all its changes, its grains starting from a file.
     fn prepared(&self, root: &Path, start: &Path, more: &[String]) -> Result<Source, String> {
         let mut sets = self.sets();
-        sets.extend(from_places(self.coarse, 0.1257, start));
+        sets.extend(if self.coulomb.is_some() {
+            let mut listed = listed(self.coarse, start).to_vec();
+            listed.extend(self.law(self.coarse));
+            listed
+        } else {
+            from_places(self.coarse, 0.1257, start).to_vec()
+        });
         if self.tangential != 1.0 {
             let gamma = 0.1257 * f64::from(1u32 << self.coarse).powi(2);
             sets.push(format!(
@@ -231,14 +278,25 @@ impl Case {
         fingerprint: u64,
         more: &[String],
     ) -> Result<Source, String> {
-        self.measured(root, fingerprint)?;
+        self.in_flow_of(self, root, fingerprint, more)
+    }
+
+    /// The same from the flow of another case of the same level, whose fingerprint it is.
+    pub fn in_flow_of(
+        &self,
+        other: &Case,
+        root: &Path,
+        fingerprint: u64,
+        more: &[String],
+    ) -> Result<Source, String> {
+        other.measured(root, fingerprint)?;
         // Nobody waits for grains that are on their way.
         let mut sets = vec![
             "still.for_at_least=1 ms".to_owned(),
             "still.at_most=2 ms".to_owned(),
         ];
         sets.extend_from_slice(more);
-        self.prepared(root, &self.file(root, fingerprint, FLOW), &sets)
+        self.prepared(root, &other.file(root, fingerprint, FLOW), &sets)
     }
 
     /// What the run measured, from the folder of finished runs or run now.

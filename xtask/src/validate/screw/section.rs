@@ -14,7 +14,7 @@ use std::path::Path;
 pub const SCENE: &str = "scenarios/screw_section.ron";
 
 /// Radii of flight, shaft and casing, pitch and thickness of the flight, m.
-const FLIGHT: f64 = 0.1025;
+pub const FLIGHT: f64 = 0.1025;
 pub const SHAFT: f64 = 0.0275;
 pub const CASING: f64 = 0.1148;
 pub const PITCH: f64 = 0.150;
