@@ -5,7 +5,7 @@ use super::transport::{PAPERS_STEP, SEEDS, resolved, told};
 use crate::validate::report::Report;
 use tsubu_picture::Figure;
 
-/// Shields numbers of each figure.
+/// Shields numbers of the figures; deep beds are dear, and have the middle one.
 const SHIELDS: [f64; 3] = [0.2, 0.5, 1.0];
 
 /// A step in µs that the packings of this bed bear: soft grains deep in a bed have more contacts.
@@ -24,6 +24,7 @@ struct Sweep<'a> {
     file: &'a str,
     values: &'a [f64],
     seeds: u64,
+    shields: &'a [f64],
     /// The bed at a value of the knob.
     bed: &'a dyn Fn(f64) -> Bed,
     /// Its steps are to be below their limits.
@@ -38,7 +39,7 @@ impl Sweep<'_> {
         mut figure: Figure,
         name: &str,
     ) -> Result<Figure, String> {
-        for shields in SHIELDS {
+        for &shields in self.shields {
             let all: Vec<Bed> = self
                 .values
                 .iter()
@@ -98,6 +99,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         file: "bedload_diameter",
         values: &[0.1, 0.2, 0.5, 1.0, 2.0, 5.0],
         seeds: SEEDS,
+        shields: &SHIELDS,
         bed: &|diameter| Bed {
             diameter,
             step: fine_step(diameter, 10),
@@ -112,6 +114,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         file: "bedload_step_fine_sand",
         values: &[1.5, 3.0, 9.0, PAPERS_STEP],
         seeds: SEEDS,
+        shields: &SHIELDS,
         bed: &|step| Bed {
             diameter: 0.1,
             step,
@@ -126,6 +129,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         file: "bedload_layers",
         values: &[10.0, 20.0, 30.0, 40.0, 50.0],
         seeds: 2,
+        shields: &[0.5],
         bed: &|layers| Bed {
             layers: layers as u32,
             step: fine_step(0.5, layers as u32),
@@ -140,6 +144,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         file: "bedload_step_deep_bed",
         values: &[1.5, 3.0, 6.0, 12.0, PAPERS_STEP],
         seeds: 2,
+        shields: &[0.5],
         bed: &|step| Bed {
             layers: 50,
             step,
@@ -166,6 +171,7 @@ fn beta(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         file: "bedload_beta",
         values: &[1.0, 2.0, 4.0, 8.0, 15.8, 30.0],
         seeds: SEEDS,
+        shields: &SHIELDS,
         bed,
         resolves: true,
     };

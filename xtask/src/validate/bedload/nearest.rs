@@ -12,7 +12,7 @@ const COARSE: [f64; 3] = [0.2, 0.5, 1.0];
 const FINE: [f64; 5] = [0.2, 0.35, 0.5, 0.7, 1.0];
 
 const BETA: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 15.8];
-const FRICTION: [f64; 3] = [0.3, 0.577, 0.9];
+const FRICTION: [f64; 2] = [0.577, 0.9];
 /// Seeds of a place of the map.
 const MAP_SEEDS: u64 = 1;
 
@@ -95,7 +95,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         "Shields number τ* (–)",
         "transport qB* (–)",
     ));
-    for (place, in_space, seeds) in [("plane", false, SEEDS), ("space", true, 2)] {
+    for (place, in_space, seeds) in [("plane", false, SEEDS), ("space", true, 1)] {
         for (name, bed) in [
             (name.as_str(), best),
             ("the shipped constants", Bed::of(0.5)),

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use tsubu_picture::Figure;
 
 const DIAMETERS: [f64; 3] = [0.2, 0.5, 2.0];
-const LAYERS: [u32; 3] = [10, 20, 40];
+const LAYERS: [u32; 3] = [10, 20, 30];
 /// Steps in µs at which transport is measured besides the fine one, and the Shields number.
 const STEPS: [f64; 4] = [6.0, 12.0, PAPERS_STEP, 40.0];
 const SHIELDS: f64 = 0.5;
