@@ -146,11 +146,15 @@ pub fn against_shields(report: &mut Report, beds: &Beds<'_>) -> Result<(), Strin
         ),
         ("as_printed, β = 15.8, Δt = 20 µs", at_papers_step(printed)),
     ];
-    let mut figure = with_relations(Figure::new(
-        "Transport of a bed of 0.5 mm sand (constants of 20 µs; step 3 µs unless said)",
-        "Shields number τ* (–)",
-        "transport qB* (–)",
-    ));
+    let empty = |title| {
+        with_relations(Figure::new(
+            title,
+            "Shields number τ* (–)",
+            "transport qB* (–)",
+        ))
+    };
+    let mut fine = empty("Transport of a bed of 0.5 mm sand, converged in the step");
+    let mut coarse = empty("Transport of the same bed at the paper's step of 20 µs");
     for (name, base) in sets {
         let all = SHIELDS.map(|shields| Bed { shields, ..base });
         let means = beds.means(&all, SEEDS)?;
@@ -159,8 +163,14 @@ pub fn against_shields(report: &mut Report, beds: &Beds<'_>) -> Result<(), Strin
             resolved(report, name, &means);
         }
         let (y, e): (Vec<f64>, Vec<f64>) = means.iter().map(|m| (m.transport, m.error)).unzip();
-        figure = figure.points(name, &SHIELDS, &y, Some(&e));
+        let figure = if base.step < PAPERS_STEP {
+            &mut fine
+        } else {
+            &mut coarse
+        };
+        *figure = figure.clone().points(name, &SHIELDS, &y, Some(&e));
         report.progress(name);
     }
-    report.figure("bedload_transport", figure)
+    report.figure("bedload_transport", fine)?;
+    report.figure("bedload_transport_papers_step", coarse)
 }
