@@ -5,6 +5,7 @@
 
 mod chart;
 mod meshes;
+mod stability;
 mod tidy;
 mod validate;
 
@@ -47,6 +48,12 @@ enum Task {
         /// How many steps.
         steps: u64,
     },
+    /// Maps of where each method holds and fails, theory over measurement: docs/charts/stability_*.svg with CSV; exit 1
+    /// where the measurement leaves an exact theory.
+    Stability {
+        /// Maps to make: plane, packings, springs, impact, gap, tunnel; none named = all.
+        maps: Vec<String>,
+    },
     /// Write the STL files of the screw feeder into scenarios/meshes, and say what is in them.
     Meshes,
     /// Hold the sources against the invariants of the house.
@@ -58,6 +65,7 @@ fn main() -> ExitCode {
         Task::Validate { suites, full } => validate::run(&root(), &suites, full),
         Task::Chart { charts } => chart::run(&root(), &charts),
         Task::CountedSteps { scheme, steps } => chart::collision::counted(scheme, steps),
+        Task::Stability { maps } => stability::run(&root(), &maps),
         Task::Meshes => meshes::run(&root()),
         Task::Tidy => tidy::run(&root()),
     };

@@ -3,9 +3,7 @@
 use glam::DVec3;
 use std::sync::Arc;
 use tsubu_contact::{PerDirection, Repulsion, RepulsiveWall};
-use tsubu_engine::{
-    Body, Lanes, ManyKinds, NoTally, OneKind, Placed, Setup, TouchesAt, WithTally, World,
-};
+use tsubu_engine::{Body, Lanes, NoTally, OneKind, Placed, Setup, TouchesAt, WithTally, World};
 use tsubu_integrate::Scheme;
 use tsubu_model::{Domain, Kind, Motion, Space, Still, Surface};
 use tsubu_sdf::HalfSpace;
@@ -14,8 +12,6 @@ use tsubu_sdf::HalfSpace;
 pub type Dry = World<Space, Still, OneKind, Repulsion, RepulsiveWall, NoTally>;
 /// The same with the work of damping and friction summed.
 pub type Tallied = World<Space, Still, OneKind, Repulsion, RepulsiveWall, WithTally>;
-/// Grains of several kinds.
-pub type Mixed = World<Space, Still, ManyKinds, Repulsion, RepulsiveWall, NoTally>;
 /// Grains whose damping differs along and across the contact.
 pub type Directed = World<Space, Still, OneKind, Repulsion<PerDirection>, RepulsiveWall, NoTally>;
 
@@ -108,12 +104,7 @@ impl Lab {
         self
     }
 
-    fn setup<K, L>(
-        self,
-        kinds: K,
-        law: L,
-        kind_of: impl Fn(usize) -> usize,
-    ) -> Setup<Space, K, L, RepulsiveWall> {
+    fn setup<K, L>(self, kinds: K, law: L) -> Setup<Space, K, L, RepulsiveWall> {
         let plane = |(point, outward, law)| -> (Arc<dyn Surface<Space>>, Motion, RepulsiveWall) {
             let surface = HalfSpace::<Space>::new(point, outward);
             (Arc::new(surface), Motion::default(), law)
@@ -145,11 +136,10 @@ impl Lab {
             grains: self
                 .grains
                 .into_iter()
-                .enumerate()
-                .map(|(i, (position, velocity))| Placed {
+                .map(|(position, velocity)| Placed {
                     position,
                     velocity,
-                    kind: kind_of(i),
+                    kind: 0,
                 })
                 .collect(),
             gates: Vec::new(),
@@ -159,31 +149,19 @@ impl Lab {
     /// The world.
     pub fn world(self) -> Dry {
         let (kind, law) = (self.kind, self.law);
-        World::new(self.setup(OneKind([kind]), law, |_| 0))
+        World::new(self.setup(OneKind([kind]), law))
     }
 
     /// The world with its tally.
     pub fn tallied(self) -> Tallied {
         let (kind, law) = (self.kind, self.law);
-        World::new(self.setup(OneKind([kind]), law, |_| 0))
-    }
-
-    /// The world in which grains of even number have weight and those of odd number rise as much:
-    /// a field that presses a pair together for as long as one likes.
-    pub fn pressed(self) -> Mixed {
-        let down = self.kind;
-        let up = Kind {
-            weight: -down.weight,
-            ..down
-        };
-        let law = self.law;
-        World::new(self.setup(ManyKinds(vec![down, up]), law, |i| i % 2))
+        World::new(self.setup(OneKind([kind]), law))
     }
 
     /// The world with damping along the contact only.
     pub fn without_tangential_damping(self) -> Directed {
         let (kind, law) = (self.kind, self.law.softened(1.0, 1.0, 0.0).per_direction());
-        World::new(self.setup(OneKind([kind]), law, |_| 0))
+        World::new(self.setup(OneKind([kind]), law))
     }
 }
 

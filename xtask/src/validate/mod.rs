@@ -12,7 +12,8 @@ mod report;
 mod repose;
 pub mod scenes;
 mod screw;
-mod sdf;
+pub mod sdf;
+pub mod stability;
 pub mod wca;
 
 use report::Report;
@@ -38,6 +39,13 @@ const SUITES: &[Suite] = &[
         full_grain_steps: collision::FULL_GRAIN_STEPS,
         speed: FEW_GRAINS,
         run: collision::run,
+    },
+    Suite {
+        name: "stability",
+        about: "where each scheme fails: wall, pair, columns and packings at 1.02 and 0.98 of the limit, the guard",
+        full_grain_steps: stability::FULL_GRAIN_STEPS,
+        speed: FEW_GRAINS,
+        run: stability::run,
     },
     Suite {
         name: "coarsen",

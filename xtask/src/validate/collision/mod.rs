@@ -2,12 +2,9 @@
 
 mod bits;
 mod budget;
-mod euler;
 pub mod order;
 pub mod pair;
 mod row;
-mod solves;
-mod stability;
 mod wall;
 
 use super::report::Report;
@@ -23,10 +20,6 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     order::run(report)?;
     report.progress("walls: restitution and friction");
     wall::run(report)?;
-    report.progress("limits of the step");
-    stability::run(report)?;
-    euler::run(report);
-    solves::run(report);
     report.progress("a periodic row");
     row::run(report)?;
     report.progress("energy budget of a collapsing pile");

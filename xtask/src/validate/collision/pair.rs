@@ -28,7 +28,7 @@ pub struct Rebound {
     pub duration: f64,
 }
 
-/// Two grains that meet at `speed` m/s; the first touch falls `phase` of a step before a sample.
+/// Two grains that meet at `speed` m/s; the first touch falls `phase` of a step before a sample. `None` if they do not part.
 pub fn head_on(
     kind: Kind,
     law: &Repulsion,
@@ -58,6 +58,10 @@ pub fn head_on(
     for step in 0..4_000_000_u64 {
         world.advance(1);
         let (next, rate) = gap(&world);
+        // Through each other, or too fast for the step.
+        if next <= 0.0 || !world.health().is_fine() {
+            return None;
+        }
         let crossing = (range - now) / (next - now);
         if touch.is_none() && next < range {
             touch = Some(step as f64 + crossing);

@@ -1,13 +1,13 @@
 //! Suite `sdf`: one surface said in several ways – formula, triangles, grid of distances – and what a grain feels of each.
 
-mod bench;
+pub mod bench;
 mod cost;
 mod distance;
 mod grazing;
 mod moving;
 mod rebound;
 mod rest;
-mod shapes;
+pub mod shapes;
 mod slide;
 mod trial;
 mod walls;

@@ -1,6 +1,7 @@
 //! Explicit Euler is there to fail: it grows without damping at every step, and only much damping tames it.
 
-use super::stability::{Arrangement, Case};
+use super::limits::{STEPS, claimed};
+use super::pressed::{Arrangement, Case, Contact};
 use crate::validate::check::Tolerance;
 use crate::validate::lab::Lab;
 use crate::validate::report::Report;
@@ -53,18 +54,16 @@ pub fn run(report: &mut Report) {
         let case = Case {
             scheme: Scheme::ExplicitEuler,
             arrangement: Arrangement::Column(1),
-            zeta,
+            contact: Contact::Repulsion(zeta),
         };
-        let dt = case
-            .claimed(|k, c| case.scheme.limit().used(k, c))
-            .unwrap_or(f64::NAN);
+        let dt = claimed(&case, |k, c| case.scheme.limit().used(k, c)).unwrap_or(f64::NAN);
         let (k, c) = case.numbers(dt);
         report.check(
             format!(
                 "limit at a wall, ExplicitEuler, K = {k:.3}, C = {c:.3}: Δt found over claimed"
             ),
             1.0,
-            case.found(dt),
+            case.found(dt, STEPS),
             Tolerance::Absolute(0.01),
             "as for the other schemes",
         );

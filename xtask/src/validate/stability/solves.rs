@@ -1,6 +1,7 @@
 //! The linear solves of the averaged and the implicit dashpot: a fixed number of sweeps, so a limit of their own.
 
-use super::stability::{Arrangement, Case};
+use super::limits::{STEPS, claimed, claimed_of_packing};
+use super::pressed::{Arrangement, Case, Contact, frequency};
 use crate::validate::check::Tolerance;
 use crate::validate::lab::{Lab, name};
 use crate::validate::report::Report;
@@ -35,8 +36,9 @@ pub fn run(report: &mut Report) {
                 Case {
                     scheme,
                     arrangement: Arrangement::Pair,
-                    zeta,
+                    contact: Contact::Repulsion(zeta),
                 },
+                zeta,
             );
         }
         for (arrangement, words) in [
@@ -50,9 +52,9 @@ pub fn run(report: &mut Report) {
 }
 
 /// A pair against the limit with the documented gain. A pair has twice K and C of one grain.
-fn limit_as_built(report: &mut Report, case: Case) {
+fn limit_as_built(report: &mut Report, case: Case, zeta: f64) {
     let scheme = case.scheme;
-    if let Some(dt) = case.claimed(|k, c| used_as_built(scheme, 2.0 * k, 2.0 * c)) {
+    if let Some(dt) = claimed(&case, |k, c| used_as_built(scheme, 2.0 * k, 2.0 * c)) {
         let (k, c) = case.numbers(dt);
         report.check(
             format!(
@@ -62,19 +64,19 @@ fn limit_as_built(report: &mut Report, case: Case) {
                 2.0 * c
             ),
             1.0,
-            case.found(dt),
+            case.found(dt, STEPS),
             Tolerance::Absolute(0.01),
             "the documented gain of a solve that stops early; 1 % as for the other limits",
         );
     } else {
         // Stopped this early, the gain falls faster than K grows: no step is too long.
-        let dt = [1.0, 3.0, 10.0].map(|turn| turn / Case::frequency());
-        let grown = dt.into_iter().filter(|&dt| case.grows(dt)).count();
+        let dt = [1.0, 3.0, 10.0].map(|turn| turn / frequency());
+        let grown = dt.into_iter().filter(|&dt| case.grows(dt, STEPS)).count();
         report.check(
             format!(
                 "no limit of Pair as built, {}, ζ = {}: steps of 1, 3, 10 √(m/k) that grow",
                 name(scheme),
-                case.zeta
+                zeta
             ),
             0.0,
             grown as f64,
@@ -91,15 +93,13 @@ fn exact_solve(report: &mut Report, scheme: Scheme, arrangement: Arrangement, wo
         let case = Case {
             scheme,
             arrangement,
-            zeta,
+            contact: Contact::Repulsion(zeta),
         };
-        let dt = case
-            .claimed(|k, c| scheme.limit().used_by_packing(k, c, arrangement.packing()))
-            .unwrap_or(f64::NAN);
+        let dt = claimed_of_packing(&case).unwrap_or(f64::NAN);
         let shares = [0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99];
         let first = shares
             .into_iter()
-            .find(|share| case.grows(share * dt))
+            .find(|share| case.grows(share * dt, STEPS))
             .unwrap_or(1.0);
         worst = worst.min(first);
     }
