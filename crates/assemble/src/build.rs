@@ -65,7 +65,8 @@ pub struct Built {
 /// (`cargo run -p tsubu-engine --example packing` with 1 and 2 threads on heads of packing.csv).
 const GRAINS_PER_THREAD: usize = 2500;
 
-/// Steps after which the packing of a dry scene is first held against its limit: that costs some hundred steps.
+/// Steps after which the packing of a dry scene that may be over its limit is first held against it: that costs some
+/// hundred steps.
 const WEIGH_FROM: u64 = 10_000;
 
 /// Builds the simulation of a checked scene.
@@ -103,9 +104,6 @@ fn in_dimension<D: Shaped + Slices>(
     let lanes = choices.lanes.unwrap_or_else(Lanes::best);
     let mut plan = Plan::of(checked, &constants, grains.len(), threads, lanes.name());
     plan.say_wall_grains(checked, &wall_grains);
-    if !choices.allow_unstable {
-        plan.refuse_unstable(checked)?;
-    }
     let pool = if threads > 1 {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         Some(Arc::new(pool.map_err(|e| {
@@ -126,6 +124,7 @@ fn in_dimension<D: Shaped + Slices>(
         checked,
         water,
         allow_unstable: choices.allow_unstable,
+        bounded: plan.is_bounded(),
         constants: &constants,
         surfaces,
         domain,
@@ -136,7 +135,7 @@ fn in_dimension<D: Shaped + Slices>(
     let energies = checked.scene.output.energies;
     let share = checked.scene.still.map_or(1.0, |s| s.damping);
     let kind = constants.kind;
-    let simulation = match &constants.law {
+    let simulation: Box<dyn Simulation> = match &constants.law {
         Law::Repulsion {
             law,
             isotropic,
@@ -176,6 +175,10 @@ fn in_dimension<D: Shaped + Slices>(
             }
         }
     };
+    plan.weigh(&*simulation);
+    if !choices.allow_unstable {
+        plan.refuse_unstable(checked, &*simulation)?;
+    }
     Ok(Built { simulation, plan })
 }
 
@@ -185,6 +188,8 @@ struct Parts<'a, D: Layout> {
     constants: &'a Constants,
     water: Option<Flow>,
     allow_unstable: bool,
+    /// True if no packing of these grains can be over its limit.
+    bounded: bool,
     surfaces: Vec<Arc<dyn Surface<D>>>,
     domain: Domain<D>,
     grains: Vec<Placed<D>>,
@@ -258,8 +263,7 @@ impl<D: Layout + Slices> Parts<'_, D> {
             lost_bed
         });
         let begins = scene.water.as_ref().map(|water| water.begins);
-        let springs = matches!(self.constants.law, Law::SpringDashpot { .. });
-        let weigh_again = springs && begins.is_none();
+        let weigh_again = !self.bounded && begins.is_none();
         let movers: Vec<bool> = scene.walls.iter().map(|w| w.motion.is_some()).collect();
         Box::new(Running::<D, S, K, L, W, T> {
             shells: self
@@ -282,7 +286,7 @@ impl<D: Layout + Slices> Parts<'_, D> {
             },
             lost_bed: water,
             // Grains that turn have stiffer motions than the tables of limits know.
-            weighs_released: springs,
+            weighs_released: !self.bounded,
             weigh_at: begins
                 .map(|t| (t / self.constants.dt).round() as u64)
                 .or(weigh_again.then_some(WEIGH_FROM)),

@@ -1,14 +1,21 @@
 //! What a scene models and what not, and how far its step is from each limit.
 
 use crate::constants::{Constants, Law};
+use crate::simulation::Simulation;
 use std::f64::consts::PI;
 use tsubu_contact::{BodyLaw, BodyPair, SpringDashpot, Tension};
-use tsubu_integrate::{Limit, Packing};
+use tsubu_integrate::{Limit, Packing, Scheme};
 use tsubu_model::{ContactLaw, Kind, Space, Still};
 use tsubu_scene::{
     Axis, Begin, Checked, Course, End, Fate, Flow, Initial, MeshSurface, Motion, Scene, SceneError,
     Shape, Turbulence,
 };
+
+/// Name of the limit that is worked out for the very contacts of the start.
+const PACKING: &str = "the packing as it lies";
+
+/// Grains from which on the start is not weighed where cheaper bounds accept it: it costs as much as some hundred steps.
+const MANY: usize = 10_000;
 
 /// One limit of the step.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +46,8 @@ pub struct Plan {
     pub not_modelled: Vec<String>,
     /// Limits of the step.
     pub limits: Vec<LimitLine>,
+    /// What the packing at the start bears, if it lies there already; then it alone decides.
+    pub packing: Option<LimitLine>,
     /// Steps after the start or after the release of the waiting wall.
     pub steps: u64,
     /// Threads.
@@ -61,6 +70,7 @@ impl Plan {
             modelled: modelled(scene, constants),
             not_modelled: not_modelled(scene),
             limits: constants.limits(),
+            packing: None,
             steps: match scene.time.end {
                 End::Until(seconds) => (seconds / constants.dt).round().max(1.0) as u64,
                 End::Steps(steps) => steps,
@@ -84,13 +94,39 @@ impl Plan {
         }
     }
 
-    /// The limit that is used most.
+    /// Adds what the packing at the start bears, if it lies there already; many grains that the bounds accept are spared.
+    pub(crate) fn weigh(&mut self, simulation: &dyn Simulation) {
+        if self.grains > MANY && self.is_bounded() {
+            return;
+        }
+        let used = simulation.used_by_packing(self.constants.dt);
+        self.packing = used.map(|used| LimitLine {
+            name: PACKING.into(),
+            used,
+        });
+        self.limits.extend(self.packing.clone());
+    }
+
+    /// True if the limits of the constants alone say that no packing can be over its limit: those of still grains include
+    /// the densest packing. Explicit Euler has no limit for a packing.
+    pub(crate) fn is_bounded(&self) -> bool {
+        let still = matches!(self.constants.law, Law::Repulsion { .. });
+        let known = self.constants.scheme != Scheme::ExplicitEuler;
+        !known || (still && self.limits.iter().all(LimitLine::holds))
+    }
+
+    /// The limit that decides: that of the packing as it lies, or while grains have yet to meet the one that is used most.
     pub fn tightest(&self) -> Option<&LimitLine> {
-        self.limits.iter().max_by(|a, b| a.used.total_cmp(&b.used))
+        let most = || self.limits.iter().max_by(|a, b| a.used.total_cmp(&b.used));
+        self.packing.as_ref().or_else(most)
     }
 
     /// Refuses a step over its limit.
-    pub(crate) fn refuse_unstable(&self, checked: &Checked) -> Result<(), SceneError> {
+    pub(crate) fn refuse_unstable(
+        &self,
+        checked: &Checked,
+        simulation: &dyn Simulation,
+    ) -> Result<(), SceneError> {
         let Some(worst) = self.tightest().filter(|l| !l.holds()) else {
             return Ok(());
         };
@@ -106,7 +142,7 @@ impl Plan {
             },
             scheme.name(),
         );
-        let remedy = match self.stable_step() {
+        let remedy = match self.stable_step(simulation) {
             Some(dt) => format!(
                 "use a step below {dt:.3e} s (time.step: PerPeriod({:.0}) or more), another integrator, or --allow-unstable to see it fail",
                 (self.constants.period / dt).ceil()
@@ -119,8 +155,32 @@ impl Plan {
         Err(checked.problem("time.step", what, remedy))
     }
 
-    /// The largest step under all limits, to 1 %.
-    fn stable_step(&self) -> Option<f64> {
+    /// A step under the limits that decide, within some percent of the largest.
+    fn stable_step(&self, simulation: &dyn Simulation) -> Option<f64> {
+        if self.packing.is_some() {
+            let bears = |dt: f64| {
+                simulation
+                    .used_by_packing(dt)
+                    .is_some_and(|used| used < 1.0)
+            };
+            let (mut low, mut high) = (0.5 * self.constants.dt, self.constants.dt);
+            while !bears(low) {
+                (low, high) = (0.5 * low, low);
+                if low < 1e-6 * self.constants.dt {
+                    return None;
+                }
+            }
+            for _ in 0..6 {
+                let middle = (low * high).sqrt();
+                if bears(middle) {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            // Off the edge, which the power method knows to 1 % only.
+            return Some(0.98 * low);
+        }
         let stable = |share: f64| {
             let mut constants = self.constants.clone();
             constants.dt *= share;

@@ -5,6 +5,7 @@ use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tsubu_engine::{Health, KindSet, Layout, Tally, World};
+use tsubu_integrate::Scheme;
 use tsubu_model::{
     Change, ContactLaw, Curve, Dim, Energies, Gate, Observer, Pose, Reading, Shell, SpinState,
     Surface, View,
@@ -123,6 +124,9 @@ pub trait Simulation: Send {
     fn state(&self) -> Vec<(DVec3, DVec3)>;
     /// How far the last solve was from its end, in m/s; zero for explicit schemes.
     fn solve_residual(&self) -> f64;
+    /// Share of the limit that the packing as it lies now uses at a step of `dt` s; `None` while a grain touches nothing,
+    /// and for explicit Euler, whose limit is another.
+    fn used_by_packing(&self, dt: f64) -> Option<f64>;
 }
 
 /// The one implementation.
@@ -197,7 +201,7 @@ where
             .is_some_and(|lost| lost.load(Ordering::Relaxed))
     }
 
-    /// How much of the limit of an explicit step the packing uses as it lies now.
+    /// How much of the limit the packing uses as it lies now.
     fn weigh(&mut self) {
         let used = self.world.stiffest_mode() / 4.0;
         self.used = Some(self.used.map_or(used, |before| before.max(used)));
@@ -436,5 +440,11 @@ where
 
     fn solve_residual(&self) -> f64 {
         self.world.solve_residual()
+    }
+
+    fn used_by_packing(&self, dt: f64) -> Option<f64> {
+        let modes = self.world.modes();
+        let known = self.world.scheme() != Scheme::ExplicitEuler;
+        (known && modes.all_touch()).then(|| modes.largest(dt) / 4.0)
     }
 }

@@ -30,5 +30,6 @@ pub use health::Health;
 pub use kinds::{KindSet, ManyKinds, OneKind};
 pub use lanes::Lanes;
 pub use line::{Layout, Line};
+pub use modes::Modes;
 pub use walls::{Body, TouchesAt};
 pub use world::{NoTally, Placed, Setup, Tally, WithTally, World};

@@ -414,6 +414,11 @@ where
         self.steps
     }
 
+    /// Integrator.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
     /// Step in s.
     pub fn dt(&self) -> f64 {
         self.dt

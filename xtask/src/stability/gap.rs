@@ -25,6 +25,8 @@ const BESIDE: f64 = 12.0;
 const SLOTS: [f64; 10] = [0.9, 1.05, 1.25, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 12.0];
 /// Coarse levels.
 const LEVELS: [u32; 3] = [2, 3, 4];
+/// Starts that are averaged.
+const SEEDS: u64 = 3;
 /// Diameters lost at the rim of a slot (Beverloo's k).
 const RIM: f64 = 1.4;
 /// Free fall times √(d/g) after which a slot that has let nothing through is shut.
@@ -33,7 +35,7 @@ const PATIENCE: f64 = 60.0;
 type Bin = World<Plane, Still, OneKind, Repulsion, RepulsiveWall, NoTally>;
 
 /// A box that repeats sideways with a slot of `width` m in its floor, filled.
-fn bin(kind: Kind, law: Repulsion, width: f64) -> Result<Bin, String> {
+fn bin(kind: Kind, law: Repulsion, width: f64, seed: u64) -> Result<Bin, String> {
     let d = kind.diameter();
     let length = width + BESIDE * d;
     let wall = RepulsiveWall {
@@ -61,7 +63,7 @@ fn bin(kind: Kind, law: Repulsion, width: f64) -> Result<Bin, String> {
     ];
     let columns = (length / (1.1 * d)).floor();
     let pitch = length / columns;
-    let mut draw = Draw(5);
+    let mut draw = Draw(seed);
     let mut grains = Vec::new();
     for layer in 0..LAYERS {
         for column in 0..columns as u32 {
@@ -95,8 +97,8 @@ fn bin(kind: Kind, law: Repulsion, width: f64) -> Result<Bin, String> {
 }
 
 /// Grains per second through the slot while the second to the fifth tenth of them pass; 0 if it is shut.
-fn rate(kind: Kind, law: Repulsion, width: f64) -> Result<f64, String> {
-    let mut world = bin(kind, law, width)?;
+fn rate(kind: Kind, law: Repulsion, width: f64, seed: u64) -> Result<f64, String> {
+    let mut world = bin(kind, law, width, seed)?;
     let d = kind.diameter();
     let (all, fall) = (world.len() as f64, (d / GRAVITY).sqrt());
     let mut times = [f64::NAN; 2];
@@ -131,7 +133,7 @@ fn rate(kind: Kind, law: Repulsion, width: f64) -> Result<f64, String> {
 pub fn run(sheet: &Sheet) -> Result<bool, String> {
     let refused = |e: tsubu_coarsen::TooCoarse| e.to_string();
     let mut csv =
-        "level,slot over coarse diameter,flow over sqrt(g) D^1.5 (grains' area)\n".to_owned();
+        "level,slot over coarse diameter,flow over sqrt(g) D^1.5 (grains' area),standard error of 3 starts\n".to_owned();
     let mut figure = Figure::new(
         "Coarse grains through a slot, in the plane",
         "slot over the coarse diameter, D/λd (–)",
@@ -144,13 +146,21 @@ pub fn run(sheet: &Sheet) -> Result<bool, String> {
         let law = coarsen(&Renormalised, &soft, Level::new(level)).map_err(refused)?;
         let kind = coarsen(&Renormalised, &grain(), Level::new(level)).map_err(refused)?;
         let d = kind.diameter();
-        let mut flows = Vec::new();
+        let (mut flows, mut errors) = (Vec::new(), Vec::new());
         for slot in SLOTS {
-            let grains = rate(kind, law, slot * d)?;
-            let area = grains * 0.25 * std::f64::consts::PI * d * d;
-            let flow = area / (GRAVITY.sqrt() * (slot * d).powf(1.5));
-            eprintln!("  n = {level}, D = {slot} d': {flow:.4}");
-            let _ = writeln!(csv, "{level},{slot},{flow:?}");
+            let flow = |seed: u64| -> Result<f64, String> {
+                let grains = rate(kind, law, slot * d, seed)?;
+                let area = grains * 0.25 * std::f64::consts::PI * d * d;
+                Ok(area / (GRAVITY.sqrt() * (slot * d).powf(1.5)))
+            };
+            let tries: Vec<f64> = (1..=SEEDS).map(flow).collect::<Result<_, _>>()?;
+            let n = SEEDS as f64;
+            let flow = tries.iter().sum::<f64>() / n;
+            let scatter = tries.iter().map(|f| (f - flow).powi(2)).sum::<f64>();
+            let error = (scatter / (n * (n - 1.0))).sqrt();
+            println!("n = {level}, D = {slot} d': {flow:.3} ± {error:.3}");
+            let _ = writeln!(csv, "{level},{slot},{flow:?},{error:?}");
+            errors.push(error);
             flows.push(flow);
         }
         widest = widest.max(flows[SLOTS.len() - 1]);
@@ -158,7 +168,7 @@ pub fn run(sheet: &Sheet) -> Result<bool, String> {
             &format!("n = {level}, d' = {:.1} mm", d * 1e3),
             &SLOTS,
             &flows,
-            None,
+            Some(&errors),
         );
     }
     let slots: Vec<f64> = (0..100)

@@ -15,6 +15,8 @@ const STEPS: u32 = 22;
 const PHASES: u32 = 16;
 /// Energy won that counts as failure.
 const GAIN: f64 = 0.1;
+/// Overlap over the range at which a run of this law stops.
+const DEEP: f64 = 0.3;
 /// Energy won that breaks a scene within a few collisions.
 const BREAKS: f64 = 1.0;
 
@@ -70,8 +72,11 @@ pub fn run(sheet: &Sheet) -> Result<bool, String> {
         wca.stiffness(closest) / wca.edge_stiffness()
     };
     let line = |k: f64| -> Vec<f64> { speeds.iter().map(|v| (k / stiffer(v)).sqrt()).collect() };
-    // One collision at a kink wins K/4 of its energy at most.
-    let (stable, gains) = (line(4.0), line(4.0 * GAIN));
+    let stable = line(4.0);
+    // A collision begins and ends at a kink, which wins K/4 of the energy at most, K at touch.
+    let gains = (4.0 * GAIN).sqrt();
+    // Where a run stops for too deep an overlap.
+    let deep = (2.0 * wca.potential((1.0 - DEEP) * wca.range()) / mass).sqrt() / unit;
     let runaway: Vec<f64> = speeds.iter().map(|v| 0.5 / v).collect();
     let mut figure = Figure::new(
         "Two undamped grains of Repulsion head-on, SymplecticEuler",
@@ -90,7 +95,8 @@ pub fn run(sheet: &Sheet) -> Result<bool, String> {
     }
     figure = figure
         .theory("K = 4 at the deepest point", &speeds, &stable)
-        .line("K/4 = 10 % at the deepest point", &speeds, &gains)
+        .line("K/4 = 10 % at touch", &[9e-4, 3.3], &[gains, gains])
+        .line("overlap 0.3 d: a run stops", &[deep, deep], &[0.045, 2.7])
         .line("vΔt = d/2: reported as runaway", &speeds, &runaway);
     sheet.write("impact", figure, &csv)?;
     for v in [1e-3, 1e-2, 0.1, 0.3, 1.0] {

@@ -26,7 +26,7 @@ fn between(low: f64, high: f64, k: u32, of: u32) -> f64 {
 /// How a throw ended.
 #[derive(Clone, Copy, PartialEq)]
 enum End {
-    /// Came back with its energy to 1 %.
+    /// Came back with its energy to 5 % and straight: 20 steps per period are good to 2.5 %.
     Back,
     /// Came back with another energy.
     BackChanged,
@@ -61,7 +61,7 @@ fn throw(
         if x.x < -start || off.y.hypot(off.z) > 4.0 * bench.kind.diameter() {
             let energy = world.velocity(0).length_squared() / (speed * speed);
             let sideways = world.velocity(0).y.hypot(world.velocity(0).z);
-            let sound = (energy - 1.0).abs() < 0.01 && sideways < 0.01 * speed;
+            let sound = (energy - 1.0).abs() < 0.05 && sideways < 0.01 * speed;
             return if sound { End::Back } else { End::BackChanged };
         }
     }
@@ -106,7 +106,10 @@ pub fn run(sheet: &Sheet) -> Result<bool, String> {
         }
     }
     // Between the two nodes beside the middle the interpolant is flat: R = (h − t)/2, s = R + d/2. What gets there is through.
-    let ratios: Vec<f64> = (0..200).map(|k| between(0.25, 4.0, k, 200)).collect();
+    let unseen = (diameter + THICKNESS) / THICKNESS;
+    let ratios: Vec<f64> = (0..200)
+        .map(|k| between(0.25, 0.999 * unseen, k, 200))
+        .collect();
     let barrier = |ratio: &f64| {
         let s = 0.5 * (ratio - 1.0) * THICKNESS + 0.5 * diameter;
         (2.0 * wca.potential(s) / bench.kind.mass).sqrt() / unit
@@ -115,7 +118,6 @@ pub fn run(sheet: &Sheet) -> Result<bool, String> {
     let dt = bench.period() / STEPS_PER_PERIOD;
     // From half a diameter per step on.
     let too_fast = 0.5 * wca.range() / dt / unit;
-    let unseen = (diameter + THICKNESS) / THICKNESS;
     let mut figure = Figure::new(
         "A grain of 10.8 mm at a 6 mm plate known by a grid",
         "cell over thickness of the plate (–)",

@@ -2,7 +2,7 @@
 
 use super::limits::claimed_of_packing;
 use super::network::Network;
-use super::pressed::{Arrangement, Case, Contact, frequency, springs};
+use super::pressed::{Arrangement, Case, Contact, frequency, paper_b, springs};
 use crate::validate::check::Tolerance;
 use crate::validate::lab::name;
 use crate::validate::report::Report;
@@ -82,6 +82,7 @@ fn both_sides(report: &mut Report, what: &str, cases: &[Case]) {
 /// The checks.
 pub fn run(report: &mut Report) {
     closed_forms(report);
+    paper_b_constants(report);
     for scheme in SCHEMES {
         for (what, columns) in [("columns of 1–20", true), ("pair, hexagonal, fcc", false)] {
             let here = arrangements()
@@ -193,6 +194,32 @@ fn closed_forms(report: &mut Report) {
             cn,
             Tolerance::Relative(5e-3),
             "two or three digits",
+        );
+    }
+}
+
+/// Paper B's (20, 1.3) on each arrangement: λmax[M^-½(Δt²K + 2ΔtC)M^-½], stable below 4.
+fn paper_b_constants(report: &mut Report) {
+    for (what, expected, arrangement, sticks) in [
+        ("a wall, rolling", 2.92, Arrangement::Column(1), true),
+        ("a pair, pressing", 2.41, Arrangement::Pair, false),
+        ("a pair, rolling", 5.84, Arrangement::Pair, true),
+        ("a column of 4", 4.25, Arrangement::Column(4), false),
+        ("hexagonal, smooth", 7.23, Arrangement::Hexagonal, false),
+        ("hexagonal, rolling", 26.2, Arrangement::Hexagonal, true),
+    ] {
+        let case = Case {
+            scheme: Scheme::SymplecticEuler,
+            arrangement,
+            contact: paper_b(1.3, sticks),
+        };
+        let dt = SQRT_2 * PI / 20.0 / frequency();
+        report.check(
+            format!("paper B's (20, 1.3), {what}: λmax of the dense matrix"),
+            expected,
+            4.0 * case.network().used(case.scheme, dt),
+            Tolerance::Relative(3e-3),
+            "three digits, worked out apart from this code",
         );
     }
 }

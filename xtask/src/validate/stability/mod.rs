@@ -2,6 +2,7 @@
 
 pub mod edges;
 mod euler;
+mod guard;
 pub mod limits;
 pub mod network;
 pub mod pressed;
@@ -21,5 +22,6 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     solves::run(report);
     report.progress("1.02 and 0.98 of the limit");
     edges::run(report);
-    Ok(())
+    report.progress("200 stable and 200 unstable scenes");
+    guard::run(report)
 }

@@ -2,8 +2,8 @@
 //!
 //! Contacts only push, so growth of a contact that opens saturates. Here a grain or a column lies on a floor under gravity, a
 //! pair is pressed together by a field that pulls its grains in opposite directions, and a lattice by a period a little too
-//! short for it. The overlap is 4e-6 d and the disturbance at most a thousandth of that, so the contacts are linear; it begins where rounding
-//! of a position is still a ten-thousandth of it.
+//! short for it. The overlap is 4e-6 d and the disturbance at most a thousandth of that, so the contacts are linear; it begins where the
+//! rounding of a position is still a ten-thousandth of it.
 //! Growth is looked for in the second difference of the positions: a drift has none, and in the mode that alternates from
 //! step to step the full-step velocity of a leapfrog is zero.
 
@@ -23,8 +23,8 @@ use tsubu_sdf::HalfSpace;
 /// Overlap of a contact under one grain's weight, over its range.
 const OVERLAP: f64 = 4e-6;
 /// Where a disturbance begins, and where it has grown, over the overlap.
-const BEGINS: f64 = 2e-6;
-const GROWN: f64 = 5e-4;
+const BEGINS: f64 = 7e-7;
+const GROWN: f64 = 2e-4;
 
 /// What is pressed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,8 +46,8 @@ pub enum Contact {
     Repulsion(f64),
     /// The same along the contact only.
     Along(f64),
-    /// Springs and dashpots with spin.
-    Springs(SpringDashpot),
+    /// Springs and dashpots with spin, of grains whose moment of inertia is this share of m d²/10: added mass does not turn.
+    Springs(SpringDashpot, f64),
 }
 
 /// A scheme on an arrangement.
@@ -71,7 +71,7 @@ pub fn frequency() -> f64 {
 /// Springs as stiff as coke: ζ and the share of the tangential stiffness and damping. Friction holds whatever the load.
 pub fn springs(zeta: f64, stiff: f64, damped: f64) -> Contact {
     let damping = 2.0 * zeta * grain().mass * frequency();
-    Contact::Springs(SpringDashpot::new(
+    let law = SpringDashpot::new(
         stiffness(),
         stiff * stiffness(),
         damping,
@@ -81,7 +81,17 @@ pub fn springs(zeta: f64, stiff: f64, damped: f64) -> Contact {
         } else {
             0.0
         },
-    ))
+    );
+    Contact::Springs(law, 1.0)
+}
+
+/// Paper B's: αcn is ζ of one grain's mass, ν = 0.3, and the sand in water turns with its own mass only.
+pub fn paper_b(cn: f64, sticks: bool) -> Contact {
+    let share = if sticks { 1.0 } else { 0.0 };
+    match springs(cn, share / 2.6, share / 2.6f64.sqrt()) {
+        Contact::Springs(law, _) => Contact::Springs(law, 2650.0 / (2650.0 + 0.5 * 1000.0)),
+        other => other,
+    }
 }
 
 impl Contact {
@@ -89,17 +99,28 @@ impl Contact {
         let unit = 2.0 * grain().mass * frequency();
         match self {
             Contact::Repulsion(zeta) | Contact::Along(zeta) => zeta * unit,
-            Contact::Springs(law) => law.normal_damping,
+            Contact::Springs(law, _) => law.normal_damping,
+        }
+    }
+
+    fn kind(self) -> Kind {
+        let kind = grain();
+        match self {
+            Contact::Springs(_, share) => Kind {
+                inertia: share * kind.inertia,
+                ..kind
+            },
+            _ => kind,
         }
     }
 
     fn turns(self) -> bool {
-        matches!(self, Contact::Springs(law) if law.friction > 0.0)
+        matches!(self, Contact::Springs(law, _) if law.friction > 0.0)
     }
 
     fn stiffness_at(self, r: f64) -> f64 {
         match self {
-            Contact::Springs(law) => law.normal_stiffness,
+            Contact::Springs(law, _) => law.normal_stiffness,
             _ => Wca::of(&coke(0.0)).stiffness(r),
         }
     }
@@ -108,7 +129,7 @@ impl Contact {
     fn at_rest_under(self, loads: f64) -> f64 {
         let load = loads * self.load();
         match self {
-            Contact::Springs(law) => self.range() - load / law.normal_stiffness,
+            Contact::Springs(law, _) => self.range() - load / law.normal_stiffness,
             _ => Wca::of(&coke(0.0)).at_rest_under(load),
         }
     }
@@ -116,7 +137,7 @@ impl Contact {
     /// The force that presses a contact by [`OVERLAP`].
     fn load(self) -> f64 {
         let stiffness = match self {
-            Contact::Springs(law) => law.normal_stiffness,
+            Contact::Springs(law, _) => law.normal_stiffness,
             _ => stiffness(),
         };
         OVERLAP * self.range() * stiffness
@@ -124,7 +145,7 @@ impl Contact {
 
     fn range(self) -> f64 {
         match self {
-            Contact::Springs(_) => grain().diameter(),
+            Contact::Springs(..) => grain().diameter(),
             _ => Wca::of(&coke(0.0)).range(),
         }
     }
@@ -224,7 +245,7 @@ impl Case {
         let across = match self.contact {
             Contact::Repulsion(_) => [0.0, damping],
             Contact::Along(_) => [0.0; 2],
-            Contact::Springs(law) => [law.tangential_stiffness, law.tangential_damping],
+            Contact::Springs(law, _) => [law.tangential_stiffness, law.tangential_damping],
         };
         let link = |i: usize, j: Option<usize>, apart: DVec3| Link {
             i,
@@ -251,7 +272,7 @@ impl Case {
         if let Arrangement::Column(_) = self.arrangement {
             links.push(link(0, None, rest.places[0] + DVec3::Z * grain().radius));
         }
-        Network::new(rest.places.len(), &grain(), &links, self.free())
+        Network::new(rest.places.len(), &self.contact.kind(), &links, self.free())
     }
 
     /// The longest step of the theory for this very network.
@@ -313,7 +334,7 @@ impl Case {
                 let law = law.softened(1.0, 1.0, 0.0).per_direction();
                 Box::new(self.build::<Still, _, _>(law, wall, dt))
             }
-            Contact::Springs(law) => Box::new(self.build::<Spins, _, _>(law, law, dt)),
+            Contact::Springs(law, _) => Box::new(self.build::<Spins, _, _>(law, law, dt)),
         }
     }
 
@@ -341,28 +362,29 @@ impl Case {
             motion: Motion::default(),
             waits: false,
         };
-        let down = grain();
+        let down = self.contact.kind();
         let up = Kind {
             weight: -down.weight,
             ..down
         };
         let is_pair = self.arrangement == Arrangement::Pair;
-        let speed = BEGINS * OVERLAP * self.contact.range() / dt.max(1.0 / frequency());
+        // Both: a heavy dashpot eats a velocity before it has moved anything.
+        let small = BEGINS * OVERLAP * self.contact.range();
         let free = self.free();
         let mut draw = Draw(3);
-        let mut velocities: Vec<DVec3> = rest
-            .places
-            .iter()
-            .map(|_| {
-                DVec3::from_array(std::array::from_fn(|a| {
-                    if free[a] { speed * draw.normal() } else { 0.0 }
-                }))
-            })
-            .collect();
-        if rest.period.x.is_finite() {
-            let mean = velocities.iter().sum::<DVec3>() / velocities.len() as f64;
-            velocities.iter_mut().for_each(|v| *v -= mean);
-        }
+        let mut disturbance = |size: f64| {
+            let one = |a: usize| if free[a] { 1.0 } else { 0.0 };
+            let mut all: Vec<DVec3> = (0..rest.places.len())
+                .map(|_| DVec3::from_array(std::array::from_fn(|a| one(a) * size * draw.normal())))
+                .collect();
+            if rest.period.x.is_finite() {
+                let mean = all.iter().sum::<DVec3>() / all.len() as f64;
+                all.iter_mut().for_each(|v| *v -= mean);
+            }
+            all
+        };
+        let velocities = disturbance(small / dt.max(1.0 / frequency()));
+        let shifts = disturbance(small);
         World::new(Setup {
             kinds: ManyKinds(vec![down, up]),
             law,
@@ -380,14 +402,10 @@ impl Case {
             skin: None,
             lanes: Lanes::best(),
             pool: None,
-            grains: rest
-                .places
-                .iter()
-                .zip(velocities)
-                .enumerate()
-                .map(|(i, (&position, velocity))| Placed {
-                    position,
-                    velocity,
+            grains: (0..rest.places.len())
+                .map(|i| Placed {
+                    position: rest.places[i] + shifts[i],
+                    velocity: velocities[i],
                     kind: if is_pair { i % 2 } else { 0 },
                 })
                 .collect(),
