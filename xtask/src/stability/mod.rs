@@ -48,15 +48,12 @@ pub struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
-    /// Writes docs/charts/stability_<file>.svg, .png and .csv.
+    /// Writes docs/charts/stability_<file>.svg and .csv.
     fn write(&self, file: &str, figure: Figure, csv: &str) -> Result<(), String> {
-        let folder = self.root.join("docs/charts");
-        let stem = folder.join(format!("stability_{file}"));
-        keep(&folder.join(format!("stability_{file}.csv")), csv)?;
-        figure
-            .caption(&format!("cargo xtask stability {}", self.name))
-            .save(&stem)
-            .map_err(|e| e.to_string())?;
+        let named = |end: &str| self.root.join(format!("docs/charts/stability_{file}.{end}"));
+        let caption = format!("cargo xtask stability {}", self.name);
+        keep(&named("csv"), csv)?;
+        keep(&named("svg"), &figure.caption(&caption).svg())?;
         eprintln!("{}: docs/charts/stability_{file}.svg", self.name);
         Ok(())
     }
