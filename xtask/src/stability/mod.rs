@@ -50,7 +50,10 @@ pub struct Sheet<'a> {
 impl Sheet<'_> {
     /// Writes docs/charts/stability_<file>.svg and .csv.
     fn write(&self, file: &str, figure: Figure, csv: &str) -> Result<(), String> {
-        let named = |end: &str| self.root.join(format!("docs/charts/stability_{file}.{end}"));
+        let named = |end: &str| {
+            self.root
+                .join(format!("docs/charts/stability_{file}.{end}"))
+        };
         let caption = format!("cargo xtask stability {}", self.name);
         keep(&named("csv"), csv)?;
         keep(&named("svg"), &figure.caption(&caption).svg())?;

@@ -11,6 +11,9 @@ use tsubu_picture::Figure;
 /// Measured and theory may differ by this.
 const TOLERANCE: f64 = 0.01;
 
+/// A packing by its name in the CSV.
+type Named = (String, Arrangement, Contact);
+
 /// Both maps.
 pub fn run(sheet: &Sheet) -> Result<bool, String> {
     Ok(columns(sheet)? & packings(sheet)?)
@@ -70,7 +73,7 @@ fn columns(sheet: &Sheet) -> Result<bool, String> {
 
 fn packings(sheet: &Sheet) -> Result<bool, String> {
     let (central, sticking) = (Contact::Repulsion(0.0), |stiff| springs(0.0, stiff, 0.0));
-    let groups: [(&str, Vec<(String, Arrangement, Contact)>); 3] = [
+    let groups: [(&str, Vec<Named>); 3] = [
         (
             "columns of 1, 2, 4, 20 and a pair",
             [1, 2, 4, 20]
