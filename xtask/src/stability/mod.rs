@@ -48,7 +48,7 @@ pub struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
-    /// Writes docs/charts/stability_<file>.svg and .csv.
+    /// Writes `docs/charts/stability_<file>.svg` and the CSV beside it.
     fn write(&self, file: &str, figure: Figure, csv: &str) -> Result<(), String> {
         let named = |end: &str| {
             self.root
