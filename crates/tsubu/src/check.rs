@@ -36,9 +36,9 @@ pub fn check(wish: &CheckWish) -> Result<u8, Trouble> {
         c.scheme.name()
     );
     say!(
-        "  K = k dt^2/m = {:.4}, C = gamma dt/m = {:.4}",
-        c.k(),
-        c.c()
+        "  K = k dt^2/m = {}, C = gamma dt/m = {}",
+        small(c.k()),
+        small(c.c())
     );
     for limit in &plan.limits {
         say!(
@@ -84,6 +84,15 @@ pub fn check(wish: &CheckWish) -> Result<u8, Trouble> {
         build(&checked, &choices(&wish.scene, None))?;
     }
     Ok(0)
+}
+
+/// Four decimals, or two digits where these would be all zeros.
+fn small(x: f64) -> String {
+    if x == 0.0 || x.abs() >= 1e-3 {
+        format!("{x:.4}")
+    } else {
+        format!("{x:.1e}")
+    }
 }
 
 fn duration(seconds: f64) -> String {

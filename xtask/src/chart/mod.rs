@@ -57,3 +57,38 @@ pub fn run(root: &Path, names: &[String]) -> Result<bool, String> {
     }
     Ok(held)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::scene::{Setting, Subject};
+    use super::*;
+    use crate::validate::scenes::changed;
+
+    /// Every setting of every chart and of the price list is a scene: a slip of the pen would show only after hours.
+    #[test]
+    fn every_setting_is_a_scene() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let checks = |subject: &Subject, setting: &Setting| {
+            let seeds = subject.seeds.iter().map(|field| field.replace('#', "1"));
+            let mut sets: Vec<String> = subject.shared.iter().cloned().chain(seeds).collect();
+            sets.extend(setting.sets.iter().cloned());
+            let checked = changed(&root.join(subject.scene), &sets).map(|source| source.check());
+            assert!(
+                matches!(checked, Ok(Ok(_))),
+                "{}: {}: {checked:?}",
+                subject.name,
+                setting.name
+            );
+        };
+        for (_, chart) in CHARTS {
+            let chart = chart();
+            let all = chart.settings.iter().chain([&chart.reference]);
+            all.for_each(|setting| checks(&chart.subject, setting));
+            assert!(chart.settings.len() >= 25, "{}", chart.title);
+        }
+        for list in price::lists() {
+            let all = list.pieces.iter().chain([&list.base]);
+            all.for_each(|setting| checks(&list.subject, setting));
+        }
+    }
+}

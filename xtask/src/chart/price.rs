@@ -7,14 +7,15 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// A scene as it is priced, and its pieces.
-struct List {
-    subject: Subject,
+pub struct List {
+    pub subject: Subject,
     tries: u64,
-    base: Setting,
-    pieces: Vec<Setting>,
+    pub base: Setting,
+    pub pieces: Vec<Setting>,
 }
 
-fn lists() -> [List; 3] {
+/// The three scenes.
+pub fn lists() -> [List; 3] {
     let n4 = "grains.coarse=4";
     [
         List {
