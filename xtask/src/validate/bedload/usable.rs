@@ -61,15 +61,16 @@ fn steps(beds: &Beds<'_>, diameter: f64, layers: u32) -> Result<(Steps, Vec<(f64
         let share = ratio[k - 1].ln() / (ratio[k - 1] / ratio[k]).ln();
         all[k - 1].step * (all[k].step / all[k - 1].step).powf(share)
     });
-    // Bisection between a step far below any limit and one far above.
+    let at_rest =
+        |step: f64| -> Result<bool, String> { Ok(beds.agitation(&Bed { step, ..fine })? < RESTS) };
+    // Bisection between a step far below the limit and one far above; NaN if the bed still moves at the lower.
     let (mut rests, mut boils) = (0.3 * theory, 10.0 * theory);
+    if !at_rest(rests)? {
+        rests = f64::NAN;
+    }
     while boils / rests > 1.06 {
         let middle = (rests * boils).sqrt();
-        if beds.agitation(&Bed {
-            step: middle,
-            ..fine
-        })? < RESTS
-        {
+        if at_rest(middle)? {
             rests = middle;
         } else {
             boils = middle;
