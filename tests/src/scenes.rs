@@ -20,6 +20,12 @@ pub fn scene_files(folder: &str) -> Vec<PathBuf> {
     paths
 }
 
+/// The path of a scene that runs, as the command takes it.
+pub fn good_scene(name: &str) -> String {
+    let path = repository().join("tests/scenes/good").join(name);
+    path.display().to_string()
+}
+
 /// The checked scene of a text with changes laid over it; a wrong one fails the test.
 pub fn check(text: &str, changes: &[&str]) -> Checked {
     let mut source = Source::from_text("test.ron", text);

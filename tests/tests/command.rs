@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use std::path::Path;
-use tsubu_tests::{Scratch, repository, run_in, start_in, tree};
+use tsubu_tests::{Scratch, good_scene, repository, run_in, start_in, tree};
 
 const NUMBERS: [&str; 11] = [
     "angle_of_repose",
@@ -17,14 +17,6 @@ const NUMBERS: [&str; 11] = [
     "threads",
     "wall_time",
 ];
-
-fn scene(name: &str) -> String {
-    repository()
-        .join("tests/scenes/good")
-        .join(name)
-        .display()
-        .to_string()
-}
 
 /// `summary.json`, read by another reader than the one that wrote it.
 pub fn summary(folder: &Path) -> Value {
@@ -97,7 +89,7 @@ fn run_leaves_all_that_the_contract_names() {
     let scratch = Scratch::new("leaves");
     let outcome = run_in(
         scratch.path(),
-        &format!("run {} --out heap", scene("small_heap.ron")),
+        &format!("run {} --out heap", good_scene("small_heap.ron")),
     );
     outcome.is_done();
     let folder = scratch.join("heap");
@@ -186,7 +178,7 @@ fn run_without_out_numbers_its_folders() {
     let scratch = Scratch::new("numbered");
     let line = format!(
         "run {} --until 0.1~ms --set output.animation=false",
-        scene("smallest.ron")
+        good_scene("smallest.ron")
     );
     for name in ["out/smallest", "out/smallest-2", "out/smallest-3"] {
         let outcome = run_in(scratch.path(), &line);
@@ -205,7 +197,7 @@ fn an_existing_run_is_refused_untouched_and_replaced_only_by_force() {
     let line = |more: &str| {
         format!(
             "run {} --out here --set output.animation=false {more}",
-            scene("smallest.ron")
+            good_scene("smallest.ron")
         )
     };
     run_in(scratch.path(), &line("--until 0.2~ms")).is_done();
@@ -238,7 +230,7 @@ fn a_folder_of_others_is_refused_even_with_force() {
     scratch.write("thesis/summary.json", "{}");
     run_in(
         scratch.path(),
-        &format!("run {} --out thesis --force", scene("smallest.ron")),
+        &format!("run {} --out thesis --force", good_scene("smallest.ron")),
     )
     .is_one_message(2)
     .says("thesis");
@@ -255,7 +247,7 @@ fn check_says_what_is_modelled_and_writes_nothing() {
     let scratch = Scratch::new("check");
     let outcome = run_in(
         scratch.path(),
-        &format!("check {}", scene("small_heap.ron")),
+        &format!("check {}", good_scene("small_heap.ron")),
     );
     outcome.is_done();
     for words in [
@@ -273,7 +265,7 @@ fn check_says_what_is_modelled_and_writes_nothing() {
         scratch.path(),
         &format!(
             "check {} --set time.step=PerPeriod(4)",
-            scene("small_heap.ron")
+            good_scene("small_heap.ron")
         ),
     );
     over.is_one_message(2).says("is over its limit");
@@ -286,7 +278,7 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
     let scratch = Scratch::new("closed_pipe");
     let mut child = start_in(
         scratch.path(),
-        &format!("check {}", scene("small_heap.ron")),
+        &format!("check {}", good_scene("small_heap.ron")),
     );
     drop(child.stdout.take());
     let outcome = child
@@ -331,7 +323,7 @@ fn scenes_and_init_hand_out_scenes_that_run() {
 #[test]
 fn arguments_that_make_no_sense_are_refused_before_anything_happens() {
     let scratch = Scratch::new("arguments");
-    let scene = scene("smallest.ron");
+    let scene = good_scene("smallest.ron");
     for (arguments, words) in [
         ("--threads 0", "--threads"),
         ("--threads two", "--threads"),

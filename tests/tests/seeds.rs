@@ -2,15 +2,7 @@
 
 use crate::command::{series, summary};
 use serde_json::Value;
-use tsubu_tests::{Outcome, Scratch, kill, repository, run_in, start_in, tree};
-
-fn scene(name: &str) -> String {
-    repository()
-        .join("tests/scenes/good")
-        .join(name)
-        .display()
-        .to_string()
-}
+use tsubu_tests::{Outcome, Scratch, good_scene, kill, run_in, start_in, tree};
 
 /// A small bed that has fallen before the water comes; rows enough for an error of each run.
 const BED: &str = r#"(
@@ -113,7 +105,7 @@ fn seeds_that_make_no_sense_are_refused_and_leave_nothing() {
     }
     run_in(
         scratch.path(),
-        &format!("run {} --seeds 2", scene("smallest.ron")),
+        &format!("run {} --seeds 2", good_scene("smallest.ron")),
     )
     .is_one_message(2)
     .says("nothing in this scene is random")

@@ -2,15 +2,7 @@
 
 use crate::command::{frames, series, summary};
 use std::process::{Command, Stdio};
-use tsubu_tests::{Outcome, Scratch, kill, repository, run_in, start_in, tree, tsubu};
-
-fn scene(name: &str) -> String {
-    repository()
-        .join("tests/scenes/good")
-        .join(name)
-        .display()
-        .to_string()
-}
+use tsubu_tests::{Outcome, Scratch, good_scene, kill, run_in, start_in, tree, tsubu};
 
 #[test]
 fn a_folder_that_cannot_be_made_is_refused() {
@@ -19,7 +11,7 @@ fn a_folder_that_cannot_be_made_is_refused() {
     let run = |out: &str| {
         run_in(
             scratch.path(),
-            &format!("run {} --out {out}", scene("smallest.ron")),
+            &format!("run {} --out {out}", good_scene("smallest.ron")),
         )
     };
     run("file").is_one_message(2).says("is not a folder");
@@ -32,7 +24,11 @@ fn a_folder_that_cannot_be_made_is_refused() {
     assert_eq!(tree(scratch.path()).keys().collect::<Vec<_>>(), ["file"]);
     // The folder of numbered runs is a file.
     scratch.write("out", "x");
-    run_in(scratch.path(), &format!("run {}", scene("smallest.ron"))).is_one_message(2);
+    run_in(
+        scratch.path(),
+        &format!("run {}", good_scene("smallest.ron")),
+    )
+    .is_one_message(2);
 }
 
 /// Even the superuser cannot make a folder there.
@@ -43,7 +39,7 @@ fn a_folder_that_the_machine_refuses_is_the_machines_fault() {
     if std::path::Path::new("/sys/kernel").is_dir() {
         run_in(
             scratch.path(),
-            &format!("run {} --out /sys/kernel/tsubu", scene("smallest.ron")),
+            &format!("run {} --out /sys/kernel/tsubu", good_scene("smallest.ron")),
         )
         .is_one_message(4)
         .says("/sys/kernel/tsubu");
@@ -92,7 +88,7 @@ fn a_disk_that_fills_up_ends_with_one_message_and_whole_files() {
                 "sh",
             ])
             .arg(tsubu());
-        shell.args(["run", &scene("small_heap.ron"), "--out", first]);
+        shell.args(["run", &good_scene("small_heap.ron"), "--out", first]);
         shell.args(changes.iter().flat_map(|change| ["--set", change]));
         shell
             .current_dir(scratch.path())
@@ -144,7 +140,7 @@ fn a_signal_ends_the_run_in_order() {
         // and the signal comes there.
         let line = format!(
             "run {} --out run --set still.kinetic_energy=1e9 --set still.for_at_least=0~s --until 3600~s --set output.every=1~s",
-            scene("small_heap.ron")
+            good_scene("small_heap.ron")
         );
         let mut child = start_in(scratch.path(), &line);
         // The second frame is written after the second row: from then on it steps.
@@ -239,7 +235,7 @@ fn grains_that_are_never_still_are_a_failure_of_the_scene_in_words() {
     let scratch = Scratch::new("never");
     let line = format!(
         "run {} --out run --set still.at_most=50~ms --set still.kinetic_energy=1e-12",
-        scene("small_heap.ron")
+        good_scene("small_heap.ron")
     );
     run_in(scratch.path(), &line)
         .is_one_message(3)

@@ -44,7 +44,6 @@ where
         let (lines, spins, pairs, weights) = (&self.lines, &self.spins, &self.pairs, &self.weights);
         let (identity, loads) = (&self.identity, &self.loads);
         let (domain, dt, path, kinds) = (self.domain, self.dt, self.lanes, self.kinds.all().len());
-        let alike = pairs.windows(2).all(|two| two[0] == two[1]);
         let walls = WallJob::<D, S, W> {
             bodies: &self.bodies,
             pairs: &self.wall_pairs,
@@ -66,7 +65,7 @@ where
                 first,
                 pairs,
                 kinds,
-                alike,
+                alike: self.alike,
                 weights,
                 domain,
                 dt,

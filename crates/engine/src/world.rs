@@ -85,6 +85,8 @@ pub struct World<
 > {
     pub(crate) kinds: K,
     pub(crate) pairs: Vec<L::Pair>,
+    /// True if all pairs are equal, so that none has to be looked up.
+    pub(crate) alike: bool,
     pub(crate) bodies: Vec<Body<D, W>>,
     pub(crate) wall_pairs: Vec<Vec<WallPair<W::Pair>>>,
     pub(crate) domain: Domain<D>,
@@ -194,6 +196,7 @@ where
         };
         let solves = if scheme.sweeps() > 0 { n } else { 0 };
         let mut world = Self {
+            alike: pairs.windows(2).all(|two| two[0] == two[1]),
             pairs,
             wall_pairs,
             weights,

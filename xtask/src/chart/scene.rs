@@ -7,6 +7,7 @@ use crate::validate::scenes::changed;
 use rayon::prelude::*;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
+use tsubu_model::mean_of_runs;
 
 /// One setting of the knobs.
 #[derive(Clone, Debug)]
@@ -123,12 +124,12 @@ impl SceneChart {
 
 /// Mean with its standard error: of the scatter and of the runs' own, the larger.
 pub fn mean(runs: &[Ran]) -> (f64, f64) {
-    let n = runs.len() as f64;
-    let mean = runs.iter().map(|r| r.value).sum::<f64>() / n;
-    let own = runs.iter().map(|r| r.uncertainty.powi(2)).sum::<f64>() / (n * n);
-    let scatter =
-        runs.iter().map(|r| (r.value - mean).powi(2)).sum::<f64>() / (n * (n - 1.0).max(1.0));
-    (mean, own.max(scatter).sqrt())
+    let values: Vec<_> = runs
+        .iter()
+        .map(|r| (r.value, Some(r.uncertainty)))
+        .collect();
+    let (mean, error) = mean_of_runs(&values);
+    (mean, error.unwrap_or(0.0))
 }
 
 fn point(setting: &Setting, runs: &[Ran], truth: (f64, f64), is_default: bool) -> Point {

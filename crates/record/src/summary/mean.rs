@@ -1,17 +1,12 @@
 //! The mean of several runs' summaries.
 
 use super::{Entry, Summary};
+use tsubu_model::mean_of_runs;
 
 impl Summary {
     /// The means over runs that differ by chance alone, such as those of several seeds; `runs` in any order.
     ///
-    /// ```text
-    /// x = Σ xᵢ/n,    u² = max(Σ (xᵢ − x)²/(n (n − 1)), Σ uᵢ²/n²)
-    /// ```
-    ///
-    /// The uncertainty u is the standard error of the mean: by the scatter of the n runs, or by their own uncertainties uᵢ,
-    /// whichever is larger, since each may miss what the other sees. Where neither is known (one run without its own)
-    /// or all runs are alike there is none. A value that some run does not have is null: a mean over the others would be
+    /// Means and their standard errors are those of [`mean_of_runs`]. A value that some run does not have is null: a mean over the others would be
     /// another quantity. Facts stay if all runs agree on them. Names stand in the order of the first run.
     ///
     /// 1.0 ± 0.1 and 1.4 ± 0.1 give 1.2 ± 0.2.
@@ -24,7 +19,7 @@ impl Summary {
             let all = runs.iter().map(|run| run.entry(name));
             if let Entry::Value { unit, .. } = entry {
                 let values: Vec<_> = all.map(number).collect();
-                let (value, uncertainty) = mean_of(&values);
+                let (value, uncertainty) = mean_of_runs(&values);
                 mean.measured(name, value, uncertainty, unit);
             } else if all.clone().all(|other| other == Some(entry)) {
                 mean.put(name, entry.clone());
@@ -54,24 +49,6 @@ fn number(entry: Option<&Entry>) -> (f64, Option<f64>) {
         }) => (value.unwrap_or(f64::NAN), *uncertainty),
         _ => (f64::NAN, None),
     }
-}
-
-fn mean_of(values: &[(f64, Option<f64>)]) -> (f64, Option<f64>) {
-    let n = values.len() as f64;
-    let first = values[0].0;
-    let alike = values.iter().all(|v| v.0 == first);
-    // A sum of equal numbers may be rounded.
-    let mean = if alike {
-        first
-    } else {
-        values.iter().map(|v| v.0).sum::<f64>() / n
-    };
-    let scatter = (!alike)
-        .then(|| values.iter().map(|v| (v.0 - mean).powi(2)).sum::<f64>() / (n * (n - 1.0)));
-    let own: Option<f64> = values.iter().map(|v| v.1.map(|u| u * u)).sum();
-    let own = own.map(|sum| sum / (n * n));
-    let larger = scatter.into_iter().chain(own).reduce(f64::max);
-    (mean, larger.map(f64::sqrt).filter(|_| mean.is_finite()))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use crate::validate::scenes::{build_anyway, build_on_one_thread, changed};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use tsubu_assemble::Stop;
+use tsubu_model::mean_of_runs;
 use tsubu_stream::TransportCurve;
 
 /// The shipped scene.
@@ -230,16 +231,17 @@ impl<'a> Beds<'a> {
 }
 
 fn mean(runs: &[Measured]) -> Mean {
-    let n = runs.len() as f64;
     let broken = runs.iter().filter(|m| m.get("broken").0 == 1.0).count();
-    let values: Vec<(f64, f64)> = runs.iter().map(|m| m.get("transport")).collect();
-    let mean = values.iter().map(|v| v.0).sum::<f64>() / n;
-    let scatter = values.iter().map(|v| (v.0 - mean).powi(2)).sum::<f64>() / (n * (n - 1.0));
-    let own = values.iter().map(|v| v.1 * v.1).sum::<f64>() / (n * n);
+    let values: Vec<_> = runs
+        .iter()
+        .map(|m| m.get("transport"))
+        .map(|(value, own)| (value, Some(own)))
+        .collect();
+    let (mean, error) = mean_of_runs(&values);
     let used = runs.iter().map(|m| m.get("step_over_limit").0);
     Mean {
         transport: if broken > 0 { f64::NAN } else { mean },
-        error: scatter.max(own).sqrt(),
+        error: error.unwrap_or(f64::NAN),
         over_limit: used.fold(f64::NAN, f64::max),
         broken,
     }

@@ -22,6 +22,8 @@ struct Sweep<'a> {
     title: &'a str,
     label: &'a str,
     file: &'a str,
+    /// Begins the rows of the table where the label alone does not tell.
+    subject: &'a str,
     values: &'a [f64],
     seeds: u64,
     shields: &'a [f64],
@@ -84,7 +86,7 @@ impl Sweep<'_> {
     }
 
     fn run(&self, report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
-        let figure = self.curves(report, beds, self.figure(), "")?;
+        let figure = self.curves(report, beds, self.figure(), self.subject)?;
         report.figure(self.file, figure)
     }
 }
@@ -97,6 +99,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         title: "Transport against the diameter, constants of 20 µs for each",
         label: "diameter d (mm)",
         file: "bedload_diameter",
+        subject: "",
         values: &[0.1, 0.2, 0.5, 1.0, 2.0, 5.0],
         seeds: SEEDS,
         shields: &SHIELDS,
@@ -112,6 +115,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         title: "Transport against the step: d = 0.1 mm, constants of 20 µs",
         label: "step Δt (µs)",
         file: "bedload_step_fine_sand",
+        subject: "d = 0.1 mm, ",
         values: &[1.5, 3.0, 9.0, PAPERS_STEP],
         seeds: SEEDS,
         shields: &SHIELDS,
@@ -127,6 +131,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         title: "Transport against the depth of the bed, d = 0.5 mm",
         label: "layers (–)",
         file: "bedload_layers",
+        subject: "",
         values: &[10.0, 20.0, 30.0, 40.0, 50.0],
         seeds: 2,
         shields: &[0.5],
@@ -142,6 +147,7 @@ pub fn run(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         title: "Transport against the step: 50 layers, d = 0.5 mm, constants of 20 µs",
         label: "step Δt (µs)",
         file: "bedload_step_deep_bed",
+        subject: "50 layers, ",
         values: &[1.5, 3.0, 6.0, 12.0, PAPERS_STEP],
         seeds: 2,
         shields: &[0.5],
@@ -169,6 +175,7 @@ fn beta(report: &mut Report, beds: &Beds<'_>) -> Result<(), String> {
         title: "Transport against β, converged in the step",
         label: "β (–)",
         file: "bedload_beta",
+        subject: "",
         values: &[1.0, 2.0, 4.0, 8.0, 15.8, 30.0],
         seeds: SEEDS,
         shields: &SHIELDS,
