@@ -118,7 +118,7 @@ impl Figure {
         self
     }
 
-    /// A dark solid line: what theory says.
+    /// A dark line: what theory says. The first is solid, others are broken.
     #[must_use]
     pub fn theory(self, label: &str, x: &[f64], y: &[f64]) -> Self {
         self.plain(Kind::Theory, label, x, y)
@@ -168,7 +168,7 @@ impl Figure {
         )
     }
 
-    /// Grey points: values measured by others, in a laboratory or with another code.
+    /// Grey points: values measured by others, in a laboratory or with another code; sets differ in shape and shade.
     #[must_use]
     pub fn measured(self, label: &str, x: &[f64], y: &[f64]) -> Self {
         self.plain(Kind::Measured, label, x, y)
@@ -295,6 +295,18 @@ mod tests {
         ] {
             assert!(svg.contains(word), "{word} is missing");
         }
+    }
+
+    /// Several curves of theory and several sets of measurements can be told apart without their labels; one looks as ever.
+    #[test]
+    fn theories_and_measurements_differ_among_themselves() {
+        let (x, y) = ([1.0, 2.0], [1.0, 3.0]);
+        let one = Figure::new("t", "x", "y")
+            .theory("a", &x, &y)
+            .measured("c", &x, &y);
+        assert!(!one.svg().contains("stroke-dasharray") && one.svg().contains("#8c8c8c"));
+        let two = one.theory("b", &x, &y).measured("d", &x, &y).svg();
+        assert!(two.contains("stroke-dasharray") && two.contains("#4d4d4d"));
     }
 
     #[test]

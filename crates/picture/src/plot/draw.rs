@@ -8,7 +8,7 @@ use kuva::render::render::{Primitive, Scene, TextAnchor};
 use super::axis::{Scale, drawable, possible};
 use super::frame::Frame;
 use super::legend::Legend;
-use super::marks::{INK, LAYERS, Look, line, marker, polygon};
+use super::marks::{INK, LAYERS, Look, dashed, line, marker, polygon};
 use super::{Figure, Kind, Place, Series};
 use crate::text;
 
@@ -175,7 +175,7 @@ fn draw_run(scene: &mut Scene, frame: &Frame, kind: Kind, look: &Look, run: &[Pl
     let colour = look.colour.as_str();
     let points: Vec<_> = run.iter().map(|p| frame.at(p.x, p.y)).collect();
     match kind {
-        Kind::Theory => line(scene, &points, colour, 3.0),
+        Kind::Theory => dashed(scene, &points, colour, 3.0, look.dash),
         Kind::Line => line(scene, &points, colour, 2.5),
         Kind::Band => {
             let lower = run.iter().rev().map(|p| frame.at(p.x, p.low));

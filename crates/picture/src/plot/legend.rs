@@ -2,7 +2,7 @@
 
 use kuva::render::render::{Scene, TextAnchor};
 
-use super::marks::{INK, LAYERS, Look, line, marker, rectangle};
+use super::marks::{INK, LAYERS, Look, dashed, marker, rectangle};
 use super::{Figure, Kind, Series};
 use crate::text;
 
@@ -58,7 +58,7 @@ impl<'a> Legend<'a> {
                     let colour = look.colour.as_str();
                     match series.kind {
                         Kind::Theory | Kind::Line => {
-                            line(scene, &[(x, y), (x + 30.0, y)], colour, 3.0)
+                            dashed(scene, &[(x, y), (x + 30.0, y)], colour, 3.0, look.dash)
                         }
                         Kind::Band => rectangle(scene, x, y - 8.0, 30.0, 16.0, colour),
                         Kind::Points | Kind::Measured => marker(scene, &look, (x + 15.0, y)),

@@ -19,21 +19,19 @@ pub(super) const LAYERS: [&[Kind]; 3] = [
 /// How a series looks; series of the same label look the same.
 pub(super) struct Look {
     pub(super) colour: String,
-    /// Which of four shapes its points have; none for values measured by others.
+    /// Which of four shapes its points have; none for the first set of values measured by others.
     shape: Option<usize>,
+    /// How its line is broken; none for an unbroken one.
+    pub(super) dash: Option<&'static str>,
 }
+
+/// Lines of theory after each other, all in ink.
+const DASHES: [Option<&str>; 4] = [None, Some("10 6"), Some("3 5"), Some("14 5 3 5")];
+/// Values measured by others, set after set.
+const GREYS: [&str; 3] = ["#8c8c8c", "#4d4d4d", "#b5b5b5"];
 
 impl Look {
     pub(super) fn of(all: &[Series], series: &Series) -> Self {
-        let fixed = |colour: &str| Self {
-            colour: colour.to_string(),
-            shape: None,
-        };
-        match series.kind {
-            Kind::Theory => return fixed(INK),
-            Kind::Measured => return fixed("#8c8c8c"),
-            Kind::Line | Kind::Points | Kind::Band => {}
-        }
         let before = |kinds: &[Kind]| {
             let mut labels: Vec<&str> = Vec::new();
             for other in all.iter().filter(|s| kinds.contains(&s.kind)) {
@@ -46,10 +44,28 @@ impl Look {
             }
             labels.len()
         };
-        let colour = before(&[Kind::Line, Kind::Points, Kind::Band]) % colour::SERIES.len();
-        Self {
-            colour: colour::hex(colour::SERIES[colour]),
-            shape: Some(before(&[Kind::Points]) % 4),
+        match series.kind {
+            Kind::Theory => Self {
+                colour: INK.to_owned(),
+                shape: None,
+                dash: DASHES[before(&[Kind::Theory]) % DASHES.len()],
+            },
+            Kind::Measured => {
+                let set = before(&[Kind::Measured]);
+                Self {
+                    colour: GREYS[set % GREYS.len()].to_owned(),
+                    shape: (set > 0).then_some(set % 4),
+                    dash: None,
+                }
+            }
+            Kind::Line | Kind::Points | Kind::Band => {
+                let colour = before(&[Kind::Line, Kind::Points, Kind::Band]) % colour::SERIES.len();
+                Self {
+                    colour: colour::hex(colour::SERIES[colour]),
+                    shape: Some(before(&[Kind::Points]) % 4),
+                    dash: None,
+                }
+            }
         }
     }
 }
@@ -116,10 +132,20 @@ pub(super) fn rectangle(scene: &mut Scene, x: f64, y: f64, width: f64, height: f
 }
 
 pub(super) fn line(scene: &mut Scene, points: &[(f64, f64)], colour: &str, width: f64) {
+    dashed(scene, points, colour, width, None);
+}
+
+pub(super) fn dashed(
+    scene: &mut Scene,
+    points: &[(f64, f64)],
+    colour: &str,
+    width: f64,
+    dash: Option<&str>,
+) {
     scene.add(Primitive::PolyLine {
         points: points.to_vec(),
         stroke: Color::from(colour),
         stroke_width: width,
-        stroke_dasharray: None,
+        stroke_dasharray: dash.map(str::to_owned),
     });
 }
