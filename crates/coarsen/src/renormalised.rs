@@ -41,7 +41,7 @@ impl CoarseRule for Renormalised {
             Quantity::Length | Quantity::Stiffness => 1,
             Quantity::Damping => 2,
             Quantity::Mass | Quantity::Energy => 3,
-            Quantity::Restitution | Quantity::Number => 0,
+            Quantity::Modulus | Quantity::Restitution | Quantity::Number => 0,
         };
         value * lambda.powi(power)
     }

@@ -6,12 +6,13 @@ use tsubu_model::Quantity;
 /// A coarse grain carries the contact forces of λ³ real grains at the same overlap.
 ///
 /// ```text
-/// d' = λ d,  m' = λ³ m,  k' = λ³ k,  η' = λ³ η,  ε' = λ⁵ ε (a stiffness × a length²),  Δt' = Δt
+/// d' = λ d,  m' = λ³ m,  k' = λ³ k,  η' = λ³ η,  ε' = λ⁵ ε (a stiffness × a length²),  E' = λ^(5/2) E,  Δt' = Δt
 /// ```
 ///
-/// λ: ratio of diameters; d in m; m in kg; k in N/m; η in kg/s; ε in J; Δt in s.
+/// λ: ratio of diameters; d in m; m in kg; k in N/m; η in kg/s; ε in J; E in Pa, of a Hertzian contact, whose force at the same
+/// overlap goes with E √R; Δt in s.
 /// Kept: density, ζ and e, the duration of a contact and the overlap in metres at a given impact speed.
-/// Not kept: the modulus E = k/d grows with λ² (so static overlaps shrink), the collision rate falls
+/// Not kept: the modulus k/d of a linear contact grows with λ² (so static overlaps shrink), the collision rate falls
 /// with 1/λ, and whatever depends on d (crate page). The step is not enlarged: the gain is λ³, not λ⁴.
 /// Validity: made for dense gas–solid flow, where the drag on a grain also takes λ³.
 ///
@@ -40,6 +41,7 @@ impl CoarseRule for SakaiKoshizuka {
 
     fn scale(&self, quantity: Quantity, value: f64, lambda: f64) -> f64 {
         let power = match quantity {
+            Quantity::Modulus => return value * lambda.powi(2) * lambda.sqrt(),
             Quantity::Length => 1,
             Quantity::Mass | Quantity::Stiffness | Quantity::Damping => 3,
             Quantity::Energy => 5,

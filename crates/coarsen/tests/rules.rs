@@ -7,12 +7,13 @@ use tsubu_coarsen::{
 use tsubu_contact::Repulsion;
 use tsubu_model::{Constants, Kind, Quantity};
 
-const QUANTITIES: [Quantity; 7] = [
+const QUANTITIES: [Quantity; 8] = [
     Quantity::Length,
     Quantity::Mass,
     Quantity::Energy,
     Quantity::Stiffness,
     Quantity::Damping,
+    Quantity::Modulus,
     Quantity::Restitution,
     Quantity::Number,
 ];

@@ -72,6 +72,7 @@ fn collide(law: &Repulsion, grain: &Kind, speed: f64) -> Collision {
             r2: apart.length_squared(),
             reach: grain.diameter(),
             spin: Default::default(),
+            roll: Default::default(),
         };
         let push = <Repulsion as ContactLaw<Space, Still>>::force(&pair, &touch, &mut [], dt);
         velocity += push.total() * (dt / reduced);

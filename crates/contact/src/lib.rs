@@ -12,14 +12,20 @@
 //! ```
 
 mod body_law;
+mod hertz_mindlin;
 mod repulsion;
 pub mod restitution;
 mod spring_dashpot;
+mod tangential;
 pub mod testing;
 mod wall;
 mod wall_grains;
 
 pub use body_law::{BodyLaw, BodyPair};
+pub use hertz_mindlin::{
+    Bristle, Elastic, Freely, HertzMindlin, HertzMindlinPair, Resistance, Resisted, Rolling,
+    rayleigh_time,
+};
 pub use repulsion::{Damping, Isotropic, PerDirection, Repulsion, RepulsionPair};
 pub use spring_dashpot::{Normal, Slip, SpringDashpot, SpringDashpotPair, Stretch, Tension};
 pub use wall::{RepulsiveWall, RepulsiveWallPair};

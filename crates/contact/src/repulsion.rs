@@ -326,6 +326,7 @@ impl<G: Damping, D: Dim, S: SpinState> ContactLaw<D, S> for Repulsion<G> {
             viscous,
             slip: D::V::ZERO,
             twist: Default::default(),
+            couple: Default::default(),
         }
     }
 

@@ -104,6 +104,7 @@ impl<D: Dim, S: SpinState> ContactLaw<D, S> for RepulsiveWall {
             viscous: normal * (pressed - elastic),
             slip: sliding * -drag,
             twist: Default::default(),
+            couple: Default::default(),
         }
     }
 

@@ -123,6 +123,7 @@ fn the_law_of_a_body_is_the_law_that_it_holds() {
         r2: apart.length_squared(),
         reach: 1.35e-3,
         spin: Default::default(),
+        roll: Default::default(),
     };
     fn pushed<L: ContactLaw<Space, Still, Memory = [f64; 0]>>(
         law: &L,

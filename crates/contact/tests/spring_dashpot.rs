@@ -72,6 +72,7 @@ impl<D: Dim> Ride<D> {
             r2: apart.length_squared(),
             reach: 2.0 * radius,
             spin: self.spin * radius,
+            roll: self.spin,
         };
         let push = SpringDashpot::force(&pair, &touch, &mut self.memory, self.dt);
         self.velocity += (push.total() * (1.0 / mass) + gravity) * self.dt;
@@ -414,6 +415,7 @@ fn the_incremental_spring_is_ahead_by_the_last_gap() {
             r2: apart.length_squared(),
             reach: 2.0 * bead().radius,
             spin: 0.0,
+            roll: 0.0,
         };
         SpringDashpot::force(&pair, &touch, &mut counted, dt);
         ride.step(DVec2::ZERO);
@@ -488,6 +490,7 @@ fn the_stretch_turns_with_the_contact() {
             reach: pair.range,
             // n × (n × v) = −v: rolling without slip.
             spin: n.cross(velocity),
+            roll: DVec3::ZERO,
         };
         SpringDashpot::force(&pair, &touch, &mut memory, dt);
     }
@@ -518,6 +521,7 @@ fn opposes<D: Dim>() {
             r2: apart.length_squared(),
             reach: pair.range,
             spin,
+            roll: D::W::ZERO,
         };
         let push: Push<D, Spins> = SpringDashpot::force(&pair, &touch, &mut Stretch::zero(), 1e-7);
         let expected = -0.01 * (law.tangential_damping + law.tangential_stiffness * 1e-7);

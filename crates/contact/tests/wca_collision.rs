@@ -67,6 +67,7 @@ fn collide(law: &Repulsion, speed: f64) -> (f64, f64, f64) {
             r2: x * x,
             reach: 1.350e-3,
             spin: Default::default(),
+            roll: Default::default(),
         };
         let push = <Repulsion as ContactLaw<Space, Still>>::force(&pair, &touch, &mut [], 1e-9);
         push.total().x / reduced_mass()

@@ -19,20 +19,22 @@ impl<'a, D: Layout, P> Pairs<'a, D, P> {
     pub fn touch<S: SpinState, K: KindSet>(&self, i: usize, j: usize) -> (&'a P, Touch<D, S>) {
         let (a, b) = (&self.lines[i], &self.lines[j]);
         let apart = self.domain.nearest(a.position::<D>() - b.position::<D>());
-        let turn = |k: usize, line: &Line| {
+        let spin = |k: usize, line: &Line| {
             let with = if const { has_second_line::<D, S>() } {
                 &self.spins[k]
             } else {
                 line
             };
-            with.spin::<D, S>() * line.0[D::RADIUS]
+            with.spin::<D, S>()
         };
+        let (of_a, of_b) = (spin(i, a), spin(j, b));
         let touch = Touch {
             apart,
             velocity: a.velocity::<D>() - b.velocity::<D>(),
             r2: apart.length_squared(),
             reach: a.0[D::RADIUS] + b.0[D::RADIUS],
-            spin: turn(i, a) + turn(j, b),
+            spin: of_a * a.0[D::RADIUS] + of_b * b.0[D::RADIUS],
+            roll: of_a - of_b,
         };
         let pair = if K::INDEXED {
             &self.pairs[a.kind::<D>() * self.kinds + b.kind::<D>()]

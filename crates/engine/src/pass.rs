@@ -146,6 +146,7 @@ fn contacts<D, S, K, L, T, G, const WIDE: usize, const TABLE: bool>(
             }
         }
         let mut twist_of = [[0.0f64; WIDE]; 3];
+        let mut couple_of = [[0.0f64; WIDE]; 3];
         let mut push_of = [[0.0f64; WIDE]; 3];
         let mut lost_of = [[0.0f64; WIDE]; 3];
         for k in 0..WIDE {
@@ -163,6 +164,7 @@ fn contacts<D, S, K, L, T, G, const WIDE: usize, const TABLE: bool>(
                     [&own_spin, &other_spin],
                     k,
                 ),
+                roll: S::Turn::<D>::from_axes(|a| own_spin[a][k] - other_spin[a][k]),
             };
             let pair = if TABLE {
                 job.pairs[own[D::KIND][k] as usize * job.kinds + other[D::KIND][k] as usize]
@@ -174,6 +176,9 @@ fn contacts<D, S, K, L, T, G, const WIDE: usize, const TABLE: bool>(
             keep(&mut remembered, k, &memory);
             put(&mut push_of, k, push.total());
             put(&mut twist_of, k, push.twist);
+            if const { L::ROLLS } {
+                put(&mut couple_of, k, push.couple);
+            }
             if T::ON {
                 put(&mut lost_of, k, push.viscous);
             }
@@ -191,6 +196,9 @@ fn contacts<D, S, K, L, T, G, const WIDE: usize, const TABLE: bool>(
             if axes > 0 {
                 let twist = S::Turn::<D>::from_axes(|a| fold::<G, WIDE>(&twist_of[a], b));
                 torque[slot] += twist * own[D::RADIUS][b * LANES];
+                if const { L::ROLLS } {
+                    torque[slot] += S::Turn::<D>::from_axes(|a| fold::<G, WIDE>(&couple_of[a], b));
+                }
             }
             force[slot] += D::V::from_axes(|a| fold::<G, WIDE>(&push_of[a], b));
             if T::ON {

@@ -260,12 +260,18 @@ fn contacts<D, S, K, W>(
                 } else {
                     D::V::ZERO
                 };
+                let spin = own.spin::<D, S>(slot);
                 let touch = Touch {
                     apart: normal * s,
                     velocity: line.velocity::<D>() - motion,
                     r2: s * s,
                     reach: line.0[D::RADIUS] + wall.partner,
-                    spin: own.spin::<D, S>(slot) * line.0[D::RADIUS],
+                    spin: spin * line.0[D::RADIUS],
+                    roll: if moved {
+                        spin - S::from_space::<D>(pose.spin)
+                    } else {
+                        spin
+                    },
                 };
                 each(
                     chunk,
@@ -376,6 +382,10 @@ pub(crate) fn wall_forces<D, S, K, W, T>(
         let load = &mut chunk.on_bodies[at.body];
         load.force += -total;
         load.torque -= at.arm.cross(D::to_space(total));
+        if const { W::ROLLS } {
+            torque[at.slot] += push.couple;
+            load.torque -= S::to_space::<D>(push.couple);
+        }
         if T::ON {
             chunk.wall_parts.push(WallPart {
                 slot: at.slot as u32,

@@ -62,6 +62,7 @@ fn main() {
             r2: apart.length_squared(),
             reach: 2.0e-3,
             spin: Default::default(),
+            roll: Default::default(),
         };
         let push = Spring::force(&pair, &touch, &mut [], 1e-6);
         let energy = Spring::stored(&pair, &touch, &[]);

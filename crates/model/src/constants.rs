@@ -14,6 +14,8 @@ pub enum Quantity {
     Stiffness,
     /// kg/s.
     Damping,
+    /// Elastic modulus of a Hertzian contact in Pa, whose force goes with modulus × √R δ^(3/2).
+    Modulus,
     /// Ratio of the speeds after and before a collision.
     Restitution,
     /// A pure number: friction, Poisson's ratio.
@@ -29,6 +31,7 @@ impl Quantity {
             Quantity::Energy => [2, 1, -2],
             Quantity::Stiffness => [0, 1, -2],
             Quantity::Damping => [0, 1, -1],
+            Quantity::Modulus => [-1, 1, -2],
             Quantity::Restitution | Quantity::Number => [0, 0, 0],
         }
     }

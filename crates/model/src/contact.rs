@@ -16,6 +16,8 @@ pub struct Touch<D: Dim, S: SpinState> {
     pub reach: f64,
     /// r_i ω_i + r_j ω_j in m/s.
     pub spin: S::Turn<D>,
+    /// ω_i − ω_j in rad/s, with which the two roll on each other.
+    pub roll: S::Turn<D>,
 }
 
 impl<D: Dim, S: SpinState> Touch<D, S> {
@@ -44,6 +46,9 @@ pub struct Push<D: Dim, S: SpinState> {
     /// Torque about this grain's centre over its radius, in N: a tangential force f at the contact gives −n × f, the
     /// same for both grains. The engine multiplies by the radius of each.
     pub twist: S::Turn<D>,
+    /// Torque on this grain in N m that needs no force, against rolling: the partner feels its opposite. Read only of a law
+    /// that [`ROLLS`](ContactLaw::ROLLS).
+    pub couple: S::Turn<D>,
 }
 
 impl<D: Dim, S: SpinState> Push<D, S> {
@@ -54,6 +59,7 @@ impl<D: Dim, S: SpinState> Push<D, S> {
             viscous: D::V::ZERO,
             slip: D::V::ZERO,
             twist: Default::default(),
+            couple: Default::default(),
         }
     }
 
@@ -93,6 +99,8 @@ pub trait ContactLaw<D: Dim, S: SpinState>: Send + Sync {
     type Pair: Copy + PartialEq + Send + Sync;
     /// What the law remembers of a contact.
     type Memory: Numbers;
+    /// True if the law resists rolling: only then is its [`couple`](Push::couple) summed.
+    const ROLLS: bool = false;
 
     /// Constants for a grain of kind `a` against one of kind `b`.
     fn pair(&self, a: &Kind, b: &Kind) -> Self::Pair;

@@ -125,6 +125,8 @@ pub trait Dim: Copy + Debug + Default + Send + Sync + 'static {
     fn across(w: Self::W, n: Self::V) -> Self::W;
     /// The three-dimensional axial vector of w.
     fn spin_to_space(w: Self::W) -> DVec3;
+    /// The part of a three-dimensional axial vector that this dimension knows.
+    fn spin_from_space(w: DVec3) -> Self::W;
 }
 
 /// A vertical plane: coordinates x (level) and z (up), spheres one grain deep. Spin is positive from x to z: counter-clockwise
@@ -161,6 +163,9 @@ impl Dim for Plane {
     fn spin_to_space(w: f64) -> DVec3 {
         DVec3::new(0.0, -w, 0.0)
     }
+    fn spin_from_space(w: DVec3) -> f64 {
+        -w.y
+    }
 }
 
 impl Dim for Space {
@@ -186,6 +191,9 @@ impl Dim for Space {
         w - n * Vector::dot(w, n)
     }
     fn spin_to_space(w: DVec3) -> DVec3 {
+        w
+    }
+    fn spin_from_space(w: DVec3) -> DVec3 {
         w
     }
 }

@@ -14,6 +14,8 @@ pub trait SpinState: Copy + Debug + Default + Send + Sync + 'static {
     type Turn<D: Dim>: Vector;
     /// The three-dimensional axial vector of it.
     fn to_space<D: Dim>(turn: Self::Turn<D>) -> glam::DVec3;
+    /// The part of an axial vector of space that a grain can have.
+    fn from_space<D: Dim>(turn: glam::DVec3) -> Self::Turn<D>;
     /// n × turn: what the spins, r_i ω_i + r_j ω_j in m/s, add to the velocity of the contact; n points to this grain.
     fn at_contact<D: Dim>(n: D::V, turn: Self::Turn<D>) -> D::V;
     /// −n × force: the torque of a force at the contact over the radius, in N.
@@ -33,6 +35,9 @@ impl SpinState for Still {
     fn to_space<D: Dim>(_turn: Nothing) -> glam::DVec3 {
         glam::DVec3::ZERO
     }
+    fn from_space<D: Dim>(_turn: glam::DVec3) -> Nothing {
+        Nothing
+    }
     #[inline(always)]
     fn at_contact<D: Dim>(_n: D::V, _turn: Nothing) -> D::V {
         D::V::ZERO
@@ -47,6 +52,9 @@ impl SpinState for Spins {
     type Turn<D: Dim> = D::W;
     fn to_space<D: Dim>(turn: D::W) -> glam::DVec3 {
         D::spin_to_space(turn)
+    }
+    fn from_space<D: Dim>(turn: glam::DVec3) -> D::W {
+        D::spin_from_space(turn)
     }
     #[inline(always)]
     fn at_contact<D: Dim>(n: D::V, turn: D::W) -> D::V {

@@ -1,6 +1,7 @@
 //! The force of [`SpringDashpot`]: one formula for the plane and for space, without branches.
 
 use super::{Normal, Slip, SpringDashpot, Stretch, Tension};
+use crate::tangential::{carried, mirrored, share};
 use tsubu_model::{ContactLaw, Dim, Kind, Linear, Push, Spins, Touch, Vector};
 
 /// Constants of [`SpringDashpot`] for one pair of kinds.
@@ -38,25 +39,11 @@ impl SpringDashpotPair {
     }
 }
 
-/// What to multiply a vector of this length by, so that it does not exceed the limit.
-#[inline(always)]
-fn share(limit: f64, length: f64) -> f64 {
-    (limit / length.max(f64::MIN_POSITIVE)).min(1.0)
-}
-
 impl<D: Dim> ContactLaw<D, Spins> for SpringDashpot {
     type Pair = SpringDashpotPair;
     type Memory = Stretch<D>;
 
     fn pair(&self, a: &Kind, b: &Kind) -> SpringDashpotPair {
-        // A wall is the grain's mirror; a fixed grain keeps its own radius.
-        let mirrored = |kind: &Kind, partner: &Kind| {
-            if kind.radius == 0.0 && kind.mass.is_infinite() {
-                partner.radius
-            } else {
-                kind.radius
-            }
-        };
         SpringDashpotPair {
             normal_stiffness: self.normal_stiffness,
             tangential_stiffness: self.tangential_stiffness,
@@ -99,7 +86,7 @@ impl<D: Dim> ContactLaw<D, Spins> for SpringDashpot {
 
         // Across n all is in axial form, q = n × f: one number in the plane, and the same for both grains.
         let v_s = D::moment(n, touch.velocity) - D::across(touch.spin, n);
-        let trial = memory.carried(n) - v_s * (pair.tangential_stiffness * dt);
+        let trial = carried::<D>(memory.tangential, n) - v_s * (pair.tangential_stiffness * dt);
         let (length, limit) = (trial.length(), pair.friction * spring);
         let slips = length > limit;
         let e_s = trial * share(limit, length);
@@ -133,6 +120,7 @@ impl<D: Dim> ContactLaw<D, Spins> for SpringDashpot {
             viscous: n * dashpot + D::turned(d_s * stuck, n),
             slip: D::turned(f_s * (1.0 - stuck), n),
             twist: -f_s,
+            couple: D::W::ZERO,
         }
     }
 

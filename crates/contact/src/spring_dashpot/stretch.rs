@@ -22,21 +22,6 @@ pub struct Stretch<D: Dim> {
     pub tangential: D::W,
 }
 
-impl<D: Dim> Stretch<D> {
-    /// The tangential spring of a contact whose normal is now n: what is left of it across n, with its former length.
-    /// The plane in which it lies turns with the contact. In a plane scene there is nothing to turn.
-    #[inline(always)]
-    pub(super) fn carried(&self, n: D::V) -> D::W {
-        if <D::W as Vector>::AXES == 1 {
-            return self.tangential;
-        }
-        let across = D::across(self.tangential, n);
-        // The floor makes 0 of 0/0.
-        let shortened = across.length_squared().max(f64::MIN_POSITIVE);
-        across * (self.tangential.length_squared() / shortened).sqrt()
-    }
-}
-
 impl<D: Dim> Numbers for Stretch<D> {
     const N: usize = 1 + <D::W as Vector>::AXES;
 

@@ -97,15 +97,18 @@ fn work_along<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
         }
         let pieces = (length / (PIECE * case.range)).ceil().min(MOST_PIECES);
         let (piece, turned) = (edge * (1.0 / pieces), turn * (1.0 / pieces));
+        let rolled = turned * (1.0 / case.range);
         let dt = length / (pieces * speed);
         for j in 0..pieces as usize {
             let touch = case.at(State {
                 apart: from + edge * ((j as f64 + 0.5) / pieces),
                 velocity: piece * (1.0 / dt),
                 spin: turned * (1.0 / dt),
+                // Rolled as far as rubbed: what one spin alone does, the partner's being none.
+                roll: rolled * (1.0 / dt),
             });
             let push = L::force(&case.pair, &touch, &mut memory, dt);
-            work += push.total().dot(piece) + push.twist.dot(turned);
+            work += push.total().dot(piece) + push.twist.dot(turned) + push.couple.dot(rolled);
             most = most.max(L::stored(&case.pair, &touch, &memory));
         }
     }
@@ -201,6 +204,7 @@ fn gain<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
             apart,
             velocity: v,
             spin: w * a.radius + u * b.radius,
+            roll: w - u,
         });
         let push = L::force(&case.pair, &touch, &mut memory, dt);
         stored = L::stored(&case.pair, &touch, &memory);
@@ -210,8 +214,9 @@ fn gain<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
         }
         touched |= inside;
         v += push.total() * (dt / case.mass);
-        for (kind, w) in &mut turning {
-            *w += push.twist * (kind.radius * dt / kind.inertia);
+        let couples = [push.couple, -push.couple];
+        for ((kind, w), couple) in turning.iter_mut().zip(couples) {
+            *w += (push.twist * kind.radius + couple) * (dt / kind.inertia);
         }
         x += v * dt;
     }

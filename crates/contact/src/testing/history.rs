@@ -90,11 +90,16 @@ impl<'a, D: Dim, S: SpinState, L: ContactLaw<D, S>> Case<'a, D, S, L> {
             let phase = step as f64 / total as f64 * std::f64::consts::TAU;
             u * (2.9 * phase).sin() + w * (1.3 * phase + 0.9).cos()
         };
+        let rolled = |step: usize| {
+            let phase = step as f64 / total as f64 * std::f64::consts::TAU;
+            (u * (1.9 * phase).sin() + w * (2.3 * phase + 0.2).cos()) * (1.0 / self.range)
+        };
         let per_step = 1.0 / dt;
         let states = (1..=total).map(|step| State {
             apart: place(step),
             velocity: (place(step) - place(step - 1)) * per_step,
             spin: (turned(step) - turned(step - 1)) * per_step,
+            roll: (rolled(step) - rolled(step - 1)) * per_step,
         });
         History {
             dt,
@@ -137,9 +142,15 @@ impl<'a, D: Dim, S: SpinState, L: ContactLaw<D, S>> Case<'a, D, S, L> {
     }
 }
 
-/// True if the two remember the same.
-pub(super) fn same<M: Numbers>(one: &M, other: &M) -> bool {
-    (0..M::N).all(|k| one.get(k) == other.get(k))
+/// True if the two remember the same; a law that resists rolling may hold numbers that are odd under exchange of the grains.
+pub(super) fn same<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
+    one: &L::Memory,
+    other: &L::Memory,
+) -> bool {
+    (0..L::Memory::N).all(|k| {
+        let (one, other) = (one.get(k), other.get(k));
+        one == other || (L::ROLLS && one == -other)
+    })
 }
 
 /// What is remembered, in numbers.

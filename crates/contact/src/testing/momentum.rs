@@ -88,6 +88,7 @@ fn collide<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
             apart: one.x - other.x,
             velocity: one.v - other.v,
             spin,
+            roll: one.w - other.w,
         };
         let inside = state.apart.length() < case.range;
         if touched && !inside {
@@ -103,7 +104,8 @@ fn collide<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
         allowed += overlap.abs() * across.length() * dt;
         for (grain, push) in [(&mut one, on_one), (&mut other, on_other)] {
             grain.v += push.total() * (dt / grain.kind.mass);
-            grain.w += push.twist * (grain.kind.radius * dt / grain.kind.inertia);
+            let torque = push.twist * grain.kind.radius + push.couple;
+            grain.w += torque * (dt / grain.kind.inertia);
             grain.x += grain.v * dt;
         }
     }

@@ -30,6 +30,7 @@ pub(super) fn nothing_beyond<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
                         apart: direction * distance,
                         velocity: scattered::<D::V>(i as u64) * fast,
                         spin: scattered::<S::Turn<D>>(i as u64) * fast,
+                        roll: scattered::<S::Turn<D>>(i as u64) * (fast / case.range),
                     },
                     &mut worst,
                 );
@@ -58,6 +59,9 @@ fn exactly_nothing<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
     }
     worst.demand(push.twist == S::Turn::<D>::ZERO, || {
         format!("twist = {:?} N {}", push.twist, case.words(state))
+    });
+    worst.demand(push.couple == S::Turn::<D>::ZERO, || {
+        format!("couple = {:?} N m {}", push.couple, case.words(state))
     });
     let left = listed(&memory);
     worst.demand(left.iter().all(|&x| x == 0.0), || {

@@ -50,6 +50,7 @@ pub(super) fn rolls<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
                 apart,
                 velocity: -rolled::<D, S>(n, spin),
                 spin,
+                roll: turn,
             };
             rubs_at_most(case, rolling, 0.0, "rolling without slip", &mut worst);
             if case.is_wall() {
@@ -60,6 +61,7 @@ pub(super) fn rolls<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
                 apart,
                 velocity: -rolled::<D, S>(apart, turn),
                 spin: turn * reach,
+                roll: S::Turn::<D>::ZERO,
             };
             let slip = (reach - apart.length()).abs() * turn.length();
             rubs_at_most(case, one_body, slip, "turning as one body", &mut worst);

@@ -32,6 +32,8 @@ pub(super) struct State<D: Dim, S: SpinState> {
     pub velocity: D::V,
     /// r_a ω_a + r_b ω_b, m/s.
     pub spin: S::Turn<D>,
+    /// ω_a − ω_b, 1/s.
+    pub roll: S::Turn<D>,
 }
 
 impl<D: Dim, S: SpinState> State<D, S> {
@@ -41,6 +43,7 @@ impl<D: Dim, S: SpinState> State<D, S> {
             apart,
             velocity,
             spin: Default::default(),
+            roll: Default::default(),
         }
     }
 
@@ -65,6 +68,7 @@ impl<D: Dim, S: SpinState> State<D, S> {
             apart: -self.apart,
             velocity: -self.velocity,
             spin: self.spin,
+            roll: -self.roll,
         }
     }
 }
@@ -140,10 +144,12 @@ impl<'a, D: Dim, S: SpinState, L: ContactLaw<D, S>> Case<'a, D, S, L> {
                     let apart = direction * (self.range * (1.0 - overlap));
                     let wander = scattered::<D::V>(1000 + i as u64);
                     let turn = scattered::<S::Turn<D>>(2000 + i as u64);
+                    let roll = scattered::<S::Turn<D>>(3000 + i as u64) * (1.0 / self.range);
                     [0.0, 1e-3, 1.0].map(|fast| State {
                         apart,
                         velocity: wander * (fast * speed),
                         spin: turn * (fast * speed),
+                        roll: roll * (fast * speed),
                     })
                 })
         })
@@ -155,10 +161,11 @@ impl<'a, D: Dim, S: SpinState, L: ContactLaw<D, S>> Case<'a, D, S, L> {
             apart,
             velocity,
             spin,
+            roll,
         } = state;
         let overlap = 1.0 - apart.length() / self.range;
         let turning = if turns::<D, S>() {
-            format!(", r_a ω_a + r_b ω_b = {spin:?} m/s")
+            format!(", r_a ω_a + r_b ω_b = {spin:?} m/s, ω_a − ω_b = {roll:?} 1/s")
         } else {
             String::new()
         };
@@ -183,6 +190,7 @@ pub(super) fn touch<D: Dim, S: SpinState>(state: State<D, S>, reach: f64) -> Tou
         apart,
         velocity,
         spin,
+        roll,
     } = state;
     Touch {
         apart,
@@ -190,6 +198,7 @@ pub(super) fn touch<D: Dim, S: SpinState>(state: State<D, S>, reach: f64) -> Tou
         r2: apart.length_squared(),
         reach,
         spin,
+        roll,
     }
 }
 

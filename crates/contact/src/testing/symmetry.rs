@@ -7,7 +7,8 @@ use tsubu_model::{ContactLaw, Dim, Numbers, SpinState, Vector};
 
 /// Each side computes the contact for itself, so momentum is kept to the bit only if the law is odd
 /// to the bit: positions and velocities exchanged, and the kinds too where the partner is a grain.
-/// What turns the two grains, and what they remember, is even to the bit.
+/// What turns the two grains, and what they remember, is even to the bit; what keeps them from rolling, and what they remember
+/// of that, is odd.
 pub(super) fn odd<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
     case: &Case<D, S, L>,
 ) -> Option<Breach> {
@@ -43,7 +44,15 @@ pub(super) fn odd<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
                         case.words(state)
                     )
                 });
-                worst.demand(same(moment.after, &memory), || {
+                worst.demand(there.couple == -back.couple, || {
+                    format!(
+                        "couple {:?} N m and {:?} N m, {who}, {}",
+                        there.couple,
+                        back.couple,
+                        case.words(state)
+                    )
+                });
+                worst.demand(same::<D, S, L>(moment.after, &memory), || {
                     format!(
                         "{:?} and {:?} remembered, {who}, {}",
                         listed(moment.after),
@@ -93,6 +102,7 @@ pub(super) fn turns<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
                         apart: polar(state.apart),
                         velocity: polar(state.velocity),
                         spin: axial(state.spin),
+                        roll: axial(state.roll),
                     },
                     reach(case.a, case.b),
                 );
@@ -111,6 +121,15 @@ pub(super) fn turns<D: Dim, S: SpinState, L: ContactLaw<D, S>>(
                     format!(
                         "twist {:?} N, expected {expected:?} N after {view}, {}",
                         after.twist,
+                        case.words(state)
+                    )
+                });
+                let expected = axial(push.couple);
+                let off = (after.couple - expected).length();
+                worst.see(off, tolerance * case.range, || {
+                    format!(
+                        "couple {:?} N m, expected {expected:?} N m after {view}, {}",
+                        after.couple,
                         case.words(state)
                     )
                 });

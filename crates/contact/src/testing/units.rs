@@ -45,6 +45,7 @@ pub(super) fn any_units<D: Dim, S: SpinState, L: ContactLaw<D, S> + Constants>(
                 apart: state.apart * unit([1, 0, 0]),
                 velocity: state.velocity * unit([1, 0, -1]),
                 spin: state.spin * unit([1, 0, -1]),
+                roll: state.roll * unit([0, 0, -1]),
             });
             let dt = history.dt * unit([0, 0, 1]);
             let drift = history.drift() * case.stiffness * case.range;
@@ -71,6 +72,15 @@ pub(super) fn any_units<D: Dim, S: SpinState, L: ContactLaw<D, S> + Constants>(
                     format!(
                         "{words}: twist {back:?} N, {:?} N in SI, {}",
                         before.twist,
+                        case.words(state)
+                    )
+                });
+                let back = after.couple * (1.0 / unit([2, 1, -2]));
+                let off = (back - before.couple).length();
+                worst.see(off, tolerance * case.range, || {
+                    format!(
+                        "{words}: couple {back:?} N m, {:?} N m in SI, {}",
+                        before.couple,
                         case.words(state)
                     )
                 });
