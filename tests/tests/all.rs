@@ -1,6 +1,7 @@
 //! Whole-scene and cross-crate tests: one binary, a module for each subject.
 
 mod bad_scenes; // every bad scene ends with the message it states, in the library and in the command
+mod checkpoints; // saved and taken up again: the same bits
 mod command; // exit codes and what a run leaves behind
 mod good_scenes; // every good scene runs to its end, and its resolved text runs to the same bits
 mod machines; // meshes with faults, bodies that move, grains that come and go

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use std::collections::HashMap;
 use std::f64::consts::PI;
-use tsubu_model::{Change, Dim, Gate, SpinState, Vector, View, uniform};
+use tsubu_model::{Change, Damaged, Dim, Gate, Saved, SpinState, Vector, View, Words, uniform};
 use tsubu_scene::{Fate, Inlet, Outlet, Region};
 
 /// Places tried for one grain before it has to wait for the next time.
@@ -14,6 +14,15 @@ pub(crate) struct OutletGate {
     pub outlet: Outlet,
     /// Its number among the gates.
     pub number: usize,
+}
+
+/// It decides by the moment alone; what has passed is counted by the world.
+impl Saved for OutletGate {
+    fn save(&self, _words: &mut Words) {}
+
+    fn restore(&mut self, _words: &mut Words) -> Result<(), Damaged> {
+        Ok(())
+    }
 }
 
 impl<D: Dim, S: SpinState> Gate<D, S> for OutletGate {
@@ -53,6 +62,15 @@ pub(crate) struct InletGate {
     pub number: usize,
     /// Diameter of the grains that come, m.
     pub diameter: f64,
+}
+
+/// It decides by the moment alone, its random places too.
+impl Saved for InletGate {
+    fn save(&self, _words: &mut Words) {}
+
+    fn restore(&mut self, _words: &mut Words) -> Result<(), Damaged> {
+        Ok(())
+    }
 }
 
 impl<D: Dim, S: SpinState> Gate<D, S> for InletGate {

@@ -1,6 +1,6 @@
 //! The gate that takes walls away or lets them start: at a time, or once the grains are still.
 
-use tsubu_model::{Change, Dim, Gate, SpinState, Vector, View};
+use tsubu_model::{Change, Damaged, Dim, Gate, Saved, SpinState, Vector, View, Words};
 use tsubu_scene::{Begin, Removal, Scene, Still};
 
 /// Removes walls, and starts those that wait for it, as the scene says.
@@ -47,6 +47,21 @@ pub(crate) fn agitation<D: Dim, S: SpinState>(view: &dyn View<D, S>) -> f64 {
         scale += kind.weight * g * kind.diameter();
     }
     if scale > 0.0 { kinetic / scale } else { 0.0 }
+}
+
+impl Saved for WallChanges {
+    fn save(&self, words: &mut Words) {
+        words.put_part("wall changes");
+        words.put_flag(self.started);
+        words.put_maybe(self.calm_since);
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        words.take_part("wall changes")?;
+        self.started = words.take_flag()?;
+        self.calm_since = words.take_maybe()?;
+        Ok(())
+    }
 }
 
 impl<D: Dim, S: SpinState> Gate<D, S> for WallChanges {

@@ -4,11 +4,11 @@ use crate::constants::Constants;
 use crate::springs::{clear_water, sediment};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use tsubu_model::{Dim, Load, Seen, SpinState, Vector, View};
+use tsubu_model::{Damaged, Dim, Load, Saved, Seen, SpinState, Vector, View, Words};
 use tsubu_scene as scene;
 use tsubu_scene::{Checked, SceneError};
 use tsubu_stream::{
-    Datum, LogLaw, Profile, Setting, Shelter, Stream, Table, Turbulence, Unphysical,
+    Bed, Datum, LogLaw, Profile, Setting, Shelter, Stream, Table, Turbulence, Unphysical,
 };
 
 /// The water of a run.
@@ -106,6 +106,31 @@ fn setting(
         },
         ..usual
     })
+}
+
+/// Its random numbers come from the seed, the grain and the number of the switch, so the bed is all that it knows.
+impl Saved for Flow {
+    fn save(&self, words: &mut Words) {
+        words.put_part("water");
+        let bed = self.stream.bed();
+        words.put_maybe(bed.level);
+        words.put_flag(bed.switch.is_some());
+        words.put_whole(bed.switch.unwrap_or(0));
+        words.put_flag(self.lost_bed.load(Ordering::Relaxed));
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        words.take_part("water")?;
+        let level = words.take_maybe()?;
+        let looked = words.take_flag()?;
+        let switch = words.take_whole()?;
+        self.stream.restore(Bed {
+            level,
+            switch: looked.then_some(switch),
+        });
+        self.lost_bed.store(words.take_flag()?, Ordering::Relaxed);
+        Ok(())
+    }
 }
 
 impl<D: Dim, S: SpinState> Load<D, S> for Flow {

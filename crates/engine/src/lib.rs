@@ -5,7 +5,7 @@
 //!
 //! Read in this order: `line` (what the force loop reads of a grain), `pass` (the force loop),
 //! `lanes` (the fenced vector module), `walls`, `near`, `forces`, `kick`, `turning`, `world` (one step), `sweeps`,
-//! `rebuild`, `changes`, `pairs`, `look`, `modes`.
+//! `rebuild`, `changes`, `pairs`, `look`, `modes`, `saved`.
 
 mod changes;
 mod chunk;
@@ -21,6 +21,7 @@ mod near;
 mod pairs;
 mod pass;
 mod rebuild;
+mod saved;
 mod sweeps;
 mod turning;
 mod walls;

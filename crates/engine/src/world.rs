@@ -133,15 +133,15 @@ pub struct World<
     pub(crate) moved: f64,
     pub(crate) steps: u64,
     /// True from a drift to the end of its step.
-    drifted: bool,
+    pub(crate) drifted: bool,
     pub(crate) built_at: u64,
     pub(crate) builds: u64,
     pub(crate) build_scratch: usize,
-    taken_by_removal: f64,
+    pub(crate) taken_by_removal: f64,
     pub(crate) brought_by_grains: f64,
     /// The books of chunks that are no longer there.
     pub(crate) closed_books: [f64; 4],
-    health: Health,
+    pub(crate) health: Health,
     types: PhantomData<(S, T)>,
 }
 

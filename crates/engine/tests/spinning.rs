@@ -11,7 +11,8 @@ use tsubu_engine::{
 };
 use tsubu_integrate::Scheme;
 use tsubu_model::{
-    Change, Dim, Domain, Kind, Load, Motion, Plane, Seen, Space, Spins, Vector, View, uniform,
+    Change, Damaged, Dim, Domain, Kind, Load, Motion, Plane, Saved, Seen, Space, Spins, Vector,
+    View, Words, uniform,
 };
 use tsubu_sdf::HalfSpace;
 
@@ -310,6 +311,14 @@ fn a_fixed_grain_stays_where_it_is() {
 
 /// A force that grows with identity and is asked for at every time.
 struct Push;
+
+/// It knows nothing but its constants.
+impl Saved for Push {
+    fn save(&self, _words: &mut Words) {}
+    fn restore(&mut self, _words: &mut Words) -> Result<(), Damaged> {
+        Ok(())
+    }
+}
 
 impl Load<Space, Spins> for Push {
     fn is_due(&self, _t: f64) -> bool {

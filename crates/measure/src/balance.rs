@@ -2,7 +2,7 @@
 
 use crate::conveying::over;
 use crate::free::free;
-use tsubu_model::{Dim, Observer, Reading, SpinState, Vector, View};
+use tsubu_model::{Damaged, Dim, Observer, Reading, Saved, SpinState, Vector, View, Words};
 
 /// Forces and momentum as a whole.
 ///
@@ -24,6 +24,19 @@ impl Balance {
     /// An observer that has not looked yet.
     pub fn new() -> Self {
         Self::default()
+    }
+}
+
+impl Saved for Balance {
+    fn save(&self, words: &mut Words) {
+        words.put_part("balance");
+        words.put_maybe(self.support);
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        words.take_part("balance")?;
+        self.support = words.take_maybe()?;
+        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@ use crate::conveying::over;
 use crate::free::free;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_6;
-use tsubu_model::{Curve, Observer, Reading, SpinState, Vector, View};
+use tsubu_model::{Curve, Damaged, Observer, Reading, Saved, SpinState, Vector, View, Words};
 
 /// Contacts with grains from which on a grain is part of the bed: a leaping grain has fewer.
 const BED_CONTACTS: u32 = 2;
@@ -89,7 +89,7 @@ pub struct BedLoad {
 }
 
 /// What one look found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Look {
     pub time: f64,
     /// qB in m²/s, of all and by class.
@@ -207,6 +207,73 @@ fn bed_height<D: Slices, S: SpinState>(view: &dyn View<D, S>, diameter: f64) -> 
         (sum + height, count + 1.0)
     });
     over(sum, count)
+}
+
+impl Saved for Look {
+    fn save(&self, words: &mut Words) {
+        for value in [
+            self.time,
+            self.rate,
+            self.moving_fraction,
+            self.bed_height,
+            self.centre_of_mass,
+        ] {
+            words.put_number(value);
+        }
+        words.put_numbers(&self.rates);
+        words.put_whole(self.layers.len() as u64);
+        for (number, layer) in &self.layers {
+            words.put_whole(*number as u64);
+            words.put_number(layer.solid);
+            words.put_number(layer.carried);
+        }
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        for value in [
+            &mut self.time,
+            &mut self.rate,
+            &mut self.moving_fraction,
+            &mut self.bed_height,
+            &mut self.centre_of_mass,
+        ] {
+            *value = words.take_number()?;
+        }
+        self.rates = words.take_numbers()?;
+        self.layers.clear();
+        for _ in 0..words.take_count(3)? {
+            let number = words.take_whole()? as i64;
+            let layer = Layer {
+                solid: words.take_number()?,
+                carried: words.take_number()?,
+            };
+            self.layers.insert(number, layer);
+        }
+        Ok(())
+    }
+}
+
+impl Saved for BedLoad {
+    fn save(&self, words: &mut Words) {
+        words.put_part("bed load");
+        words.put_whole(self.looks.len() as u64);
+        self.looks.iter().for_each(|look| look.save(words));
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        words.take_part("bed load")?;
+        self.looks.clear();
+        for _ in 0..words.take_count(7)? {
+            let mut look = Look::default();
+            look.restore(words)?;
+            if look.rates.len() != self.options.sizes.len() {
+                let what = "a look at the bed has another number of sizes";
+                return Err(Damaged(what.into()));
+            }
+            self.looks.push(look);
+        }
+        Ok(())
+    }
 }
 
 impl<D: Slices, S: SpinState> Observer<D, S> for BedLoad {

@@ -4,7 +4,9 @@ use crate::screw::annulus;
 use crate::section::{Axis, Bins, Load, bulk_density, loads};
 use glam::DVec3;
 use std::f64::consts::TAU;
-use tsubu_model::{BodyState, Curve, Dim, Observer, Reading, SpinState, View};
+use tsubu_model::{
+    BodyState, Curve, Damaged, Dim, Observer, Reading, Saved, SpinState, View, Words,
+};
 
 /// Bins of a profile along the axis per pitch.
 const BINS_PER_PITCH: f64 = 4.0;
@@ -109,7 +111,7 @@ pub struct Conveying {
 }
 
 /// What one look found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Look {
     pub time: f64,
     /// Through the outlet, or without one through the section.
@@ -257,6 +259,70 @@ impl Drive {
             speed: pose.spin.dot(axis.direction) / TAU,
             angle: now.dot(axis.direction.cross(across)).atan2(now.dot(across)),
         }
+    }
+}
+
+impl Look {
+    /// Every number but those of the profile.
+    fn numbers(&mut self) -> [&mut f64; 9] {
+        [
+            &mut self.time,
+            &mut self.outlet_mass,
+            &mut self.mass_rate,
+            &mut self.tangential_speed,
+            &mut self.bulk_density,
+            &mut self.torque,
+            &mut self.power,
+            &mut self.turns,
+            &mut self.speed,
+        ]
+    }
+}
+
+impl Saved for Look {
+    fn save(&self, words: &mut Words) {
+        for number in self.clone().numbers() {
+            words.put_number(*number);
+        }
+        self.section.save(words);
+        words.put_whole(self.profile.len() as u64);
+        self.profile.iter().for_each(|load| load.save(words));
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        for number in self.numbers() {
+            *number = words.take_number()?;
+        }
+        self.section.restore(words)?;
+        self.profile = vec![Load::default(); words.take_count(3)?];
+        self.profile
+            .iter_mut()
+            .try_for_each(|load| load.restore(words))
+    }
+}
+
+impl Saved for Conveying {
+    fn save(&self, words: &mut Words) {
+        words.put_part("conveying");
+        words.put_number(self.angle);
+        words.put_whole(self.looks.len() as u64);
+        self.looks.iter().for_each(|look| look.save(words));
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        words.take_part("conveying")?;
+        self.angle = words.take_number()?;
+        self.looks.clear();
+        for _ in 0..words.take_count(13)? {
+            let mut look = Look::default();
+            look.restore(words)?;
+            if look.profile.len() != self.bins.count {
+                let what = "a profile along the screw has another number of bins";
+                return Err(Damaged(what.into()));
+            }
+            self.looks.push(look);
+        }
+        Ok(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! The energy budget.
 
-use tsubu_model::{Dim, Energies, Observer, Reading, SpinState, View};
+use tsubu_model::{Damaged, Dim, Energies, Observer, Reading, Saved, SpinState, View, Words};
 
 /// Where the energy is and where it went, and whether the books close.
 ///
@@ -74,6 +74,33 @@ fn entries(e: &Energies) -> [(&'static str, f64); 8] {
         ("lost_wall_friction", e.lost_wall_friction),
         ("taken_by_removal", e.taken_by_removal),
     ]
+}
+
+impl Saved for Energy {
+    fn save(&self, words: &mut Words) {
+        words.put_part("energy");
+        words.put_flag(self.first.is_some());
+        self.first.unwrap_or_default().save(words);
+        for value in [self.largest_error, self.largest_fall, self.largest_entry] {
+            words.put_number(value);
+        }
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        words.take_part("energy")?;
+        let looked = words.take_flag()?;
+        let mut first = Energies::default();
+        first.restore(words)?;
+        self.first = looked.then_some(first);
+        for value in [
+            &mut self.largest_error,
+            &mut self.largest_fall,
+            &mut self.largest_entry,
+        ] {
+            *value = words.take_number()?;
+        }
+        Ok(())
+    }
 }
 
 impl<D: Dim, S: SpinState> Observer<D, S> for Energy {

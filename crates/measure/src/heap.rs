@@ -2,7 +2,7 @@
 
 use crate::slope::{Measured, Stand, crest_height, flank_angle, front, runout_angle};
 use crate::{Deposit, Profile, Slices};
-use tsubu_model::{Curve, Observer, Reading, SpinState, View};
+use tsubu_model::{Curve, Damaged, Observer, Reading, Saved, SpinState, View, Words};
 
 /// What a [`Heap`] needs to know of the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub struct Heap {
 }
 
 /// What one look found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Look {
     time: f64,
     profile: Profile,
@@ -113,6 +113,61 @@ impl Heap {
             x: profile.x.clone(),
             y: profile.height.clone(),
         }
+    }
+}
+
+impl Saved for Look {
+    fn save(&self, words: &mut Words) {
+        words.put_number(self.time);
+        self.profile.save(words);
+        for measured in [&self.flank, &self.runout, &self.front] {
+            measured.save(words);
+        }
+        self.centre.iter().for_each(|c| words.put_number(*c));
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        self.time = words.take_number()?;
+        self.profile.restore(words)?;
+        for measured in [&mut self.flank, &mut self.runout, &mut self.front] {
+            measured.restore(words)?;
+        }
+        self.centre = [words.take_number()?, words.take_number()?];
+        Ok(())
+    }
+}
+
+impl Saved for Heap {
+    fn save(&self, words: &mut Words) {
+        words.put_part("heap");
+        words.put_numbers(&self.waiting);
+        words.put_whole(self.kept.len() as u64);
+        for (time, profile) in &self.kept {
+            words.put_number(*time);
+            profile.save(words);
+        }
+        words.put_flag(self.last.is_some());
+        if let Some(look) = &self.last {
+            look.save(words);
+        }
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        words.take_part("heap")?;
+        self.waiting = words.take_numbers()?;
+        self.kept.clear();
+        for _ in 0..words.take_count(6)? {
+            let (time, mut profile) = (words.take_number()?, Profile::default());
+            profile.restore(words)?;
+            self.kept.push((time, profile));
+        }
+        self.last = None;
+        if words.take_flag()? {
+            let mut look = Look::default();
+            look.restore(words)?;
+            self.last = Some(look);
+        }
+        Ok(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Force and torque of the grains on every body.
 
-use tsubu_model::{Dim, Observer, Reading, SpinState, View};
+use tsubu_model::{Damaged, Dim, Observer, Reading, Saved, SpinState, View, Words};
 
 /// What each body feels at this moment.
 ///
@@ -24,6 +24,15 @@ impl Loads {
     /// An observer of bodies of which these move at some time.
     pub fn new(movers: Vec<bool>) -> Self {
         Self { movers }
+    }
+}
+
+/// It sums nothing up.
+impl Saved for Loads {
+    fn save(&self, _words: &mut Words) {}
+
+    fn restore(&mut self, _words: &mut Words) -> Result<(), Damaged> {
+        Ok(())
     }
 }
 

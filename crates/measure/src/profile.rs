@@ -1,7 +1,7 @@
 //! The height of a deposit along x.
 
 use crate::{Deposit, Slices};
-use tsubu_model::{SpinState, View};
+use tsubu_model::{Damaged, Saved, SpinState, View, Words};
 
 /// How a profile is cut into bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct ProfileOptions {
 ///
 /// Not for overhangs and hollows, whose height is that of their filling. Slopes carry the relative
 /// error of φ. Loose grains are left out as [`Deposit`] says.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Profile {
     /// Centres of the bins in m, ascending and evenly spaced.
     pub x: Vec<f64>,
@@ -41,6 +41,29 @@ pub struct Profile {
     pub bulk_fraction: f64,
     /// Its standard deviation; NaN if not known.
     pub bulk_uncertainty: f64,
+}
+
+impl Saved for Profile {
+    fn save(&self, words: &mut Words) {
+        words.put_numbers(&self.x);
+        words.put_numbers(&self.height);
+        for value in [self.bin, self.bulk_fraction, self.bulk_uncertainty] {
+            words.put_number(value);
+        }
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        self.x = words.take_numbers()?;
+        self.height = words.take_numbers()?;
+        for value in [
+            &mut self.bin,
+            &mut self.bulk_fraction,
+            &mut self.bulk_uncertainty,
+        ] {
+            *value = words.take_number()?;
+        }
+        Ok(())
+    }
 }
 
 /// No more bins than this: a finer bin is widened, so that a mistyped width cannot fill the memory.

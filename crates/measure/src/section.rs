@@ -3,7 +3,7 @@
 use crate::Slices;
 use crate::free::free;
 use glam::DVec3;
-use tsubu_model::{Dim, Kind, Space, SpinState, View};
+use tsubu_model::{Damaged, Dim, Kind, Saved, Space, SpinState, View, Words};
 
 /// Most bins of a profile, whatever the options say.
 const MOST_BINS: usize = 256;
@@ -53,6 +53,21 @@ pub(crate) struct Load {
     pub axial: f64,
     /// Σ m v around the axis, in kg m/s.
     pub around: f64,
+}
+
+impl Saved for Load {
+    fn save(&self, words: &mut Words) {
+        for value in [self.mass, self.axial, self.around] {
+            words.put_number(value);
+        }
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        for value in [&mut self.mass, &mut self.axial, &mut self.around] {
+            *value = words.take_number()?;
+        }
+        Ok(())
+    }
 }
 
 impl Load {

@@ -10,6 +10,7 @@
 //! * [`runout_angle`]: θ = atan((h_back − d/2)/(s_front)): from the surface at the back wall to the front.
 
 use crate::{Line, Profile};
+use tsubu_model::{Damaged, Saved, Words};
 
 /// Where a heap stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,12 +24,25 @@ pub struct Stand {
 }
 
 /// A value with its standard deviation, if known. NaN if it cannot be measured.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measured {
     /// The value.
     pub value: f64,
     /// Its standard deviation.
     pub uncertainty: Option<f64>,
+}
+
+impl Saved for Measured {
+    fn save(&self, words: &mut Words) {
+        words.put_number(self.value);
+        words.put_maybe(self.uncertainty);
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        self.value = words.take_number()?;
+        self.uncertainty = words.take_maybe()?;
+        Ok(())
+    }
 }
 
 const UNKNOWN: Measured = Measured {

@@ -2,7 +2,7 @@
 
 use crate::free::is_free;
 use crate::{Deposit, Slices};
-use tsubu_model::{Observer, Reading, SpinState, View};
+use tsubu_model::{Damaged, Observer, Reading, Saved, SpinState, View, Words};
 
 /// Coordination, packing fraction and overlaps.
 ///
@@ -32,6 +32,48 @@ impl Structure {
             depth,
             last: Vec::new(),
         }
+    }
+}
+
+/// The values of a look, in the order of the row, and their uncertainties.
+fn row(values: [(f64, Option<f64>); 5]) -> Vec<Reading> {
+    const NAMES: [&str; 5] = [
+        "coordination",
+        "coordination_bearing",
+        "packing_fraction",
+        "overlap_max",
+        "overlap_mean",
+    ];
+    let named = NAMES.into_iter().zip(values);
+    named
+        .map(|(name, (value, uncertainty))| Reading {
+            uncertainty,
+            ..Reading::new(name, value, "1")
+        })
+        .collect()
+}
+
+impl Saved for Structure {
+    fn save(&self, words: &mut Words) {
+        words.put_part("structure");
+        words.put_whole(self.last.len() as u64);
+        for reading in &self.last {
+            words.put_number(reading.value);
+            words.put_maybe(reading.uncertainty);
+        }
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        words.take_part("structure")?;
+        let mut values = [(0.0, None); 5];
+        let count = words.take_whole()?;
+        if count > 0 {
+            for (value, uncertainty) in &mut values {
+                (*value, *uncertainty) = (words.take_number()?, words.take_maybe()?);
+            }
+        }
+        self.last = if count > 0 { row(values) } else { Vec::new() };
+        Ok(())
     }
 }
 
@@ -69,20 +111,14 @@ impl<D: Slices, S: SpinState> Observer<D, S> for Structure {
             .bulk_uncertainty
             .is_finite()
             .then_some(deposit.bulk_uncertainty);
-        self.last = vec![
-            Reading::new("coordination", mean(0), "1"),
-            Reading::new("coordination_bearing", mean(2), "1"),
-            Reading {
-                uncertainty: known,
-                ..Reading::new("packing_fraction", deposit.bulk_fraction, "1")
-            },
-            Reading::new("overlap_max", largest, "1"),
-            Reading::new(
-                "overlap_mean",
-                if pairs > 0 { sum / pairs as f64 } else { 0.0 },
-                "1",
-            ),
-        ];
+        let overlap = if pairs > 0 { sum / pairs as f64 } else { 0.0 };
+        self.last = row([
+            (mean(0), None),
+            (mean(2), None),
+            (deposit.bulk_fraction, known),
+            (largest, None),
+            (overlap, None),
+        ]);
         self.last.clone()
     }
 

@@ -22,6 +22,7 @@ mod mean;
 mod motion;
 mod numbers;
 mod random;
+mod saved;
 mod spin;
 mod surface;
 mod view;
@@ -35,6 +36,7 @@ pub use mean::mean_of_runs;
 pub use motion::{Course, Motion, Pose, Shift, Span, Turn};
 pub use numbers::{MOST_NUMBERS, Numbers};
 pub use random::uniform;
+pub use saved::{Damaged, Saved, Words};
 pub use spin::{Nothing, SpinState, Spins, Still};
 pub use surface::{Hit, HitBuffer, Shell, Surface};
 pub use view::{

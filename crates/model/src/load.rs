@@ -1,6 +1,6 @@
 //! What acts on every grain once a step, whatever it touches: water.
 
-use crate::{Dim, SpinState, View};
+use crate::{Dim, Saved, SpinState, View};
 
 /// A grain as a [`Load`] sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Seen<D: Dim> {
 }
 
 /// A force on every grain that no contact gives. Weight is not one: kinds carry it.
-pub trait Load<D: Dim, S: SpinState>: Send + Sync {
+pub trait Load<D: Dim, S: SpinState>: Saved + Send + Sync {
     /// True if it has to look at the whole scene before the forces of time `t` in s.
     fn is_due(&self, t: f64) -> bool;
     /// Looks at the whole scene.

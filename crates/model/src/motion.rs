@@ -1,5 +1,6 @@
 //! How a body moves: rigidly, prescribed in time. Rotation about one axis, and shifts that carry the axis along.
 
+use crate::{Damaged, Saved, Words};
 use glam::{DMat3, DVec3};
 
 /// From when to when, in s. Before `start` and after `stop` the body rests where it is.
@@ -193,6 +194,34 @@ impl Default for Pose {
             spin: DVec3::ZERO,
             velocity: DVec3::ZERO,
         }
+    }
+}
+
+impl Saved for Pose {
+    fn save(&self, words: &mut Words) {
+        for number in self.turn.to_cols_array() {
+            words.put_number(number);
+        }
+        for vector in [self.pivot, self.shift, self.spin, self.velocity] {
+            words.put_vector(vector);
+        }
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        let mut turn = [0.0; 9];
+        for number in &mut turn {
+            *number = words.take_number()?;
+        }
+        self.turn = DMat3::from_cols_array(&turn);
+        for vector in [
+            &mut self.pivot,
+            &mut self.shift,
+            &mut self.spin,
+            &mut self.velocity,
+        ] {
+            *vector = words.take_vector()?;
+        }
+        Ok(())
     }
 }
 

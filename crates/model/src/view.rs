@@ -1,6 +1,6 @@
 //! How observers and gates look at a running simulation, and what they may say.
 
-use crate::{Dim, Kind, SpinState};
+use crate::{Damaged, Dim, Kind, Saved, SpinState, Words};
 use std::borrow::Cow;
 
 /// Energies in J. Everything that leaves is summed step by step, nothing is inferred as a remainder.
@@ -41,6 +41,40 @@ impl Energies {
     /// Kinetic, gravitational and elastic energy.
     pub fn held(&self) -> f64 {
         self.kinetic + self.gravitational + self.elastic + self.elastic_walls
+    }
+}
+
+impl Energies {
+    /// Every entry, in the order in which they are saved.
+    fn entries(&mut self) -> [&mut f64; 10] {
+        [
+            &mut self.kinetic,
+            &mut self.gravitational,
+            &mut self.elastic,
+            &mut self.elastic_walls,
+            &mut self.lost_damping,
+            &mut self.lost_wall_damping,
+            &mut self.lost_wall_friction,
+            &mut self.taken_by_removal,
+            &mut self.work_of_bodies,
+            &mut self.brought_by_grains,
+        ]
+    }
+}
+
+impl Saved for Energies {
+    fn save(&self, words: &mut Words) {
+        let mut all = *self;
+        for value in all.entries() {
+            words.put_number(*value);
+        }
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        for value in self.entries() {
+            *value = words.take_number()?;
+        }
+        Ok(())
     }
 }
 
@@ -102,6 +136,24 @@ impl Passage {
             moved: 0,
             mass: 0.0,
         }
+    }
+}
+
+/// What has come and gone; the name is the scene's.
+impl Saved for Passage {
+    fn save(&self, words: &mut Words) {
+        for count in [self.came, self.went, self.moved] {
+            words.put_whole(count);
+        }
+        words.put_number(self.mass);
+    }
+
+    fn restore(&mut self, words: &mut Words) -> Result<(), Damaged> {
+        for count in [&mut self.came, &mut self.went, &mut self.moved] {
+            *count = words.take_whole()?;
+        }
+        self.mass = words.take_number()?;
+        Ok(())
     }
 }
 
@@ -172,7 +224,7 @@ pub enum Change {
 }
 
 /// Something that changes the scene while it runs: a wall that goes when the grains are still.
-pub trait Gate<D: Dim, S: SpinState>: Send {
+pub trait Gate<D: Dim, S: SpinState>: Saved + Send {
     /// Looks and decides; called every few steps at a fixed cadence.
     fn decide(&mut self, view: &dyn View<D, S>, out: &mut Vec<Change>);
 }
@@ -224,7 +276,7 @@ pub struct Curve {
 }
 
 /// A measure: it looks at the simulation at the output cadence and reports numbers.
-pub trait Observer<D: Dim, S: SpinState>: Send {
+pub trait Observer<D: Dim, S: SpinState>: Saved + Send {
     /// Looks once and gives the values of this moment: one row of `series.csv`, always the same names in the same order.
     fn see(&mut self, view: &dyn View<D, S>) -> Vec<Reading>;
     /// What it has to say at the end: entries of `summary.json`.

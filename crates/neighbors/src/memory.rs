@@ -29,7 +29,8 @@ impl ChunkMemory {
         self.values[(block * self.numbers + m) * LANES + lane]
     }
 
-    fn set(&mut self, block: usize, lane: usize, m: usize, value: f64) {
+    /// Sets number m of a lane of a block.
+    pub fn set(&mut self, block: usize, lane: usize, m: usize, value: f64) {
         self.values[(block * self.numbers + m) * LANES + lane] = value;
     }
 

@@ -62,6 +62,14 @@ impl RecordError {
         }
     }
 
+    /// What is on the disk is not what was written there.
+    pub(crate) fn damaged(what: impl Into<String>, place: &Path, remedy: &str) -> Self {
+        Self {
+            fault: Fault::Machine,
+            ..Self::arguments(what, place, remedy)
+        }
+    }
+
     pub(crate) fn machine(what: impl Into<String>, place: &Path, cause: io::Error) -> Self {
         Self {
             fault: Fault::Machine,

@@ -1,9 +1,10 @@
 //! The folder of one run: found or made, claimed, and never shared with another run.
 
 use std::ffi::OsStr;
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use crate::RecordError;
 use crate::whole::PART_SUFFIX;
@@ -35,10 +36,19 @@ const SEED: &str = "seed-";
 /// Names that prove a run of ours wrote the folder; `figures` or `summary.json` could be anyone's.
 const PROOF: [&str; 2] = [CLAIM, "scene.resolved.ron"];
 
-/// A folder that belongs to this run alone.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A folder that belongs to this run alone: its claim is locked as long as this value or a copy lives, and the system
+/// lets go of it however the program ends.
+#[derive(Clone, Debug)]
 pub struct RunFolder {
     root: PathBuf,
+    /// The claim, held to keep its lock.
+    _claim: Arc<File>,
+}
+
+impl PartialEq for RunFolder {
+    fn eq(&self, other: &Self) -> bool {
+        self.root == other.root
+    }
 }
 
 impl RunFolder {
@@ -60,6 +70,34 @@ impl RunFolder {
         match requested {
             Some(path) => Self::requested(path, force),
             None => Self::numbered(Path::new(DEFAULT_BASE), default_stem),
+        }
+    }
+
+    /// Takes up the folder of an earlier run, to go on in it.
+    ///
+    /// # Errors
+    /// When it is none, or when a run is writing into it.
+    pub fn reopen(path: &Path) -> Result<Self, RecordError> {
+        let no_run = |what: &str| {
+            RecordError::arguments(
+                what,
+                path,
+                "Give the folder that `tsubu run` named; of several seeds, that of one: DIR/seed-1.",
+            )
+        };
+        if !path.is_dir() {
+            return Err(no_run("there is no such folder"));
+        }
+        match lock(path)? {
+            Some(claim) => Ok(Self::with(path.into(), claim)),
+            None => Err(no_run("no run of tsubu wrote this folder")),
+        }
+    }
+
+    fn with(root: PathBuf, claim: File) -> Self {
+        Self {
+            root,
+            _claim: Arc::new(claim),
         }
     }
 
@@ -96,6 +134,19 @@ impl RunFolder {
     /// When something else is there already, or the machine refuses.
     pub fn of_seed(&self, seed: u64) -> Result<Self, RecordError> {
         Self::requested(&self.path(format!("{SEED}{seed}")), true)
+    }
+
+    /// The names of the folders of seeds in it.
+    pub fn seeds(&self) -> Result<Vec<String>, RecordError> {
+        let found = entries(&self.root)
+            .map_err(|e| RecordError::machine("the folder could not be read", &self.root, e))?;
+        let mut seeds: Vec<String> = found
+            .iter()
+            .filter(|name| is_seed(&self.root, name))
+            .map(|name| name.to_string_lossy().into_owned())
+            .collect();
+        seeds.sort();
+        Ok(seeds)
     }
 
     fn numbered(base: &Path, stem: &str) -> Result<Self, RecordError> {
@@ -153,23 +204,26 @@ impl RunFolder {
         if !found.is_empty() && !force {
             return Err(taken(path));
         }
+        // A run that is still writing here keeps its folder, whatever was asked for.
+        let held = lock(path)?;
         remove_ours(path, &found)?;
-        let root = path.to_path_buf();
-        claim(&root)?;
-        Ok(Self { root })
+        let claim = held.map_or_else(|| claim(path), Ok)?;
+        Ok(Self::with(path.into(), claim))
     }
 
     fn claim_new(root: PathBuf) -> Result<Self, RecordError> {
-        if let Err(error) = claim(&root) {
-            fs::remove_dir(&root).ok();
-            return Err(error);
+        match claim(&root) {
+            Ok(claim) => Ok(Self::with(root, claim)),
+            Err(error) => {
+                fs::remove_dir(&root).ok();
+                Err(error)
+            }
         }
-        Ok(Self { root })
     }
 }
 
 /// Makes the claim file, which also shows at the start, not at the first frame, that the folder can be written to.
-fn claim(root: &Path) -> Result<(), RecordError> {
+fn claim(root: &Path) -> Result<File, RecordError> {
     let path = root.join(CLAIM);
     let mut file = match OpenOptions::new().write(true).create_new(true).open(&path) {
         Ok(file) => file,
@@ -185,13 +239,45 @@ fn claim(root: &Path) -> Result<(), RecordError> {
     file.write_all(CLAIM_TEXT).map_err(|e| {
         fs::remove_file(&path).ok();
         RecordError::machine("the folder could not be written to", root, e)
-    })
+    })?;
+    locked(file, root)
+}
+
+/// The claim of an earlier run, locked; `None` if there is none.
+fn lock(root: &Path) -> Result<Option<File>, RecordError> {
+    let path = root.join(CLAIM);
+    match OpenOptions::new().read(true).write(true).open(&path) {
+        Ok(file) => locked(file, root).map(Some),
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(None),
+        Err(e) => Err(RecordError::machine(
+            "the folder could not be written to",
+            root,
+            e,
+        )),
+    }
+}
+
+fn locked(file: File, root: &Path) -> Result<File, RecordError> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(RecordError::arguments(
+            "another run is writing into this folder",
+            root,
+            "Wait for its end or stop it, or choose another folder with --out.",
+        )),
+        // Some network disks know no locks; the claim alone must do there.
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+    }
 }
 
 /// Removes what a run wrote; the proofs go last, so a removal that fails half way can be tried again.
 fn remove_ours(root: &Path, found: &[std::ffi::OsString]) -> Result<(), RecordError> {
     let is_proof = |name: &OsStr| PROOF.iter().any(|p| name == *p);
-    let ours = || found.iter().filter(|name| is_ours(root, name));
+    // The claim stays: it is locked, and the new run goes on with it.
+    let ours = || {
+        found
+            .iter()
+            .filter(|name| *name != CLAIM && is_ours(root, name))
+    };
     let in_order = ours()
         .filter(|name| !is_proof(name))
         .chain(ours().filter(|name| is_proof(name)));
@@ -211,11 +297,15 @@ fn remove_ours(root: &Path, found: &[std::ffi::OsString]) -> Result<(), RecordEr
 fn remove_seed(path: &Path) -> Result<(), RecordError> {
     let found =
         entries(path).map_err(|e| RecordError::machine("the folder could not be read", path, e))?;
+    let held = lock(path)?;
     remove_ours(path, &found)?;
-    match fs::remove_dir(path) {
-        Ok(()) => Ok(()),
-        Err(_) => claim(path),
+    let only_the_claim = entries(path).is_ok_and(|left| left.iter().all(|name| name == CLAIM));
+    if only_the_claim {
+        fs::remove_dir_all(path)
+            .map_err(|e| RecordError::machine("the earlier run could not be removed", path, e))?;
     }
+    drop(held);
+    Ok(())
 }
 
 /// Whether this is the folder of a seed, written by a run of ours.

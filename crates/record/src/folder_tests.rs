@@ -234,11 +234,24 @@ fn the_runs_of_seeds_go_with_their_folder_and_notes_in_them_stay() {
         RunFolder::create(Some(&path), "unused", false),
         "already holds",
     );
+    // Neither the whole nor one of its runs is replaced while a run holds it.
+    is_refused(
+        RunFolder::create(Some(&path), "unused", true),
+        "another run is writing",
+    );
+    drop(folder);
+    let one = RunFolder::reopen(&path.join("seed-1")).unwrap();
+    is_refused(
+        RunFolder::create(Some(&path), "unused", true),
+        "another run is writing",
+    );
+    drop(one);
     let folder = RunFolder::create(Some(&path), "unused", true).unwrap();
     assert_eq!(names(&path), [CLAIM, "seed-2", "seed-3", "seed-bank"]);
     let again = folder.of_seed(2).unwrap();
     assert_eq!(names(again.root()), [CLAIM, "notes.txt"]);
     // A later run of one seed alone replaces them all the same.
+    drop((folder, again));
     RunFolder::create(Some(&path), "unused", true).unwrap();
     assert_eq!(names(&path), [CLAIM, "seed-2", "seed-3", "seed-bank"]);
 }

@@ -9,7 +9,15 @@ use crate::vtp::{Frame, encode};
 use crate::{RecordError, RunFolder, write_whole};
 
 const HEAD: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+const LIST: &str = "frames.pvd";
+/// How the line of a frame's grains differs from that of its bodies.
+const GRAINS_PART: &str = " part=\"0\" ";
 const TAIL: &str = "</Collection>\n</VTKFile>\n";
+
+/// The path of the grains of a frame in the folder of a run.
+pub fn frame_name(number: usize) -> String {
+    format!("frames/frame_{number:06}.vtp")
+}
 
 /// Writes `frames/frame_000000.vtp`, `…01.vtp`, … and after each one the list of them all.
 ///
@@ -45,6 +53,65 @@ impl FrameWriter {
         })
     }
 
+    /// Takes up the list of a run that was stopped, after its first `count` frames; those after them are removed.
+    ///
+    /// # Errors
+    /// When the list is not there, or names fewer frames.
+    pub fn resume(folder: &RunFolder, count: usize) -> Result<Self, RecordError> {
+        let mut frames = Self::new(folder)?;
+        let path = folder.path(LIST);
+        let cannot = |e| RecordError::machine("it could not be read", &path, e);
+        let text = if count == 0 && !path.exists() {
+            String::new()
+        } else {
+            fs::read_to_string(&path).map_err(cannot)?
+        };
+        let inside = text.strip_prefix(HEAD).unwrap_or_default();
+        for line in inside.lines().filter(|line| line.starts_with("<DataSet ")) {
+            frames.count += usize::from(line.contains(GRAINS_PART));
+            if frames.count > count {
+                break;
+            }
+            frames.lines.push_str(line);
+            frames.lines.push('\n');
+        }
+        if frames.count < count {
+            let what = format!(
+                "it names {} frames, and the checkpoint was written after {count}",
+                frames.count
+            );
+            let remedy = "Put the frames of this run back, or run the scene again.";
+            return Err(RecordError::arguments(what, &path, remedy));
+        }
+        frames.count = count;
+        frames.remove_later(count)?;
+        let list = format!("{HEAD}{}{TAIL}", frames.lines);
+        write_whole(&path, list.as_bytes())?;
+        Ok(frames)
+    }
+
+    /// Removes the files of frames from this number on.
+    fn remove_later(&self, count: usize) -> Result<(), RecordError> {
+        let path = self.folder.path("frames");
+        let cannot = |e| RecordError::machine("old frames could not be removed", &path, e);
+        for entry in fs::read_dir(&path).map_err(cannot)? {
+            let entry = entry.map_err(cannot)?;
+            let name = entry.file_name();
+            let number = name.to_str().and_then(|name| {
+                let (kind, rest) = name.split_once('_')?;
+                let ours = kind == "frame" || kind == "bodies";
+                rest.strip_suffix(".vtp")?
+                    .parse::<usize>()
+                    .ok()
+                    .filter(|_| ours)
+            });
+            if number.is_some_and(|number| number >= count) {
+                fs::remove_file(entry.path()).map_err(cannot)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Writes the frame at `time` (s), then the list with it.
     ///
     /// After an error the frame does not count: the list is as it was, and the next frame takes the same number.
@@ -71,7 +138,7 @@ impl FrameWriter {
 
     fn write_parts(&mut self, time: f64, frame: &Frame, faces: &Faces) -> Result<(), RecordError> {
         let number = self.count;
-        let name = format!("frames/frame_{number:06}.vtp");
+        let name = frame_name(number);
         let path = self.folder.path(&name);
         write_whole(&path, &encode(time, frame, &path)?)?;
         self.list(time, 0, &name);
@@ -82,7 +149,7 @@ impl FrameWriter {
             self.list(time, 1, &name);
         }
         let list = format!("{HEAD}{}{TAIL}", self.lines);
-        write_whole(&self.folder.path("frames.pvd"), list.as_bytes())
+        write_whole(&self.folder.path(LIST), list.as_bytes())
     }
 
     fn list(&mut self, time: f64, part: u32, name: &str) {
@@ -159,6 +226,56 @@ mod tests {
         }
         assert_eq!(frames.count(), 5);
         assert_eq!(names(&folder.path("frames")).len(), 5);
+    }
+
+    /// Killed after six frames, taken up after the fourth: as if the last two had never been, and the numbers come back.
+    #[test]
+    fn a_list_goes_on_from_a_checkpoint() {
+        let scratch = Scratch::new();
+        let folder = scratch.run_folder();
+        let write = |frames: &mut FrameWriter, k: usize| {
+            let (points, radius) = (grains(k + 1), vec![0.1 * k as f32; k + 1]);
+            let columns = [("radius", Column::Scalar(&radius))];
+            let frame = Frame {
+                points: &points,
+                columns: &columns,
+            };
+            let corners = grains(3);
+            let faces = Faces {
+                points: &corners,
+                triangles: &[[0, 1, 2]],
+                bodies: &[7],
+            };
+            frames
+                .write_with_bodies(0.1 * k as f64, &frame, &faces)
+                .unwrap();
+        };
+        let mut frames = FrameWriter::new(&folder).unwrap();
+        (0..6).for_each(|k| write(&mut frames, k));
+        let whole = fs::read_to_string(folder.path(LIST)).unwrap();
+        let mut frames = FrameWriter::resume(&folder, 4).unwrap();
+        assert_eq!((frames.count(), listed(&folder).len()), (4, 8));
+        assert_eq!(names(&folder.path("frames")).len(), 8);
+        (4..6).for_each(|k| write(&mut frames, k));
+        assert_eq!(fs::read_to_string(folder.path(LIST)).unwrap(), whole);
+        let error = FrameWriter::resume(&folder, 7).unwrap_err();
+        assert_eq!(error.exit_code(), 2);
+        assert!(error.to_string().contains("6 frames"), "{error}");
+        let path = folder.path(frame_name(3));
+        let points = crate::read_array(&path, "Points").unwrap();
+        assert_eq!(points.as_chunks::<3>().0, grains(4));
+        assert_eq!(
+            crate::read_array(&path, "radius").unwrap(),
+            vec![0.1 * 3f32; 4]
+        );
+        assert!(crate::read_array(&path, "id").is_none());
+        let mut bytes = fs::read(&path).unwrap();
+        for at in (0..bytes.len()).rev() {
+            bytes.truncate(at);
+            fs::write(&path, &bytes).unwrap();
+            // Whatever is left, an answer.
+            crate::read_array(&path, "Points");
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a run writes: its folder, frames for ParaView, `series.csv` and `summary.json`.
+//! What a run writes: its folder, frames for ParaView, `series.csv`, `summary.json` and checkpoints.
 //!
 //! The crate takes plain slices and knows nothing of grains, laws or scenes.
 //! Whatever it writes is whole: a file appears under its name only when all of it is on the disk,
@@ -34,23 +34,27 @@
 //! # Ok::<(), tsubu_record::RecordError>(())
 //! ```
 
+pub mod checkpoint;
 pub mod error;
 pub mod faces;
 pub mod folder;
 pub mod frames;
 pub mod series;
 pub mod summary;
+pub mod unpack;
 pub mod vtp;
 pub mod whole;
 
 #[cfg(test)]
 mod scratch;
 
+pub use checkpoint::{Checkpoint, Checkpoints, Newest, checksum};
 pub use error::{Fault, RecordError};
 pub use faces::Faces;
 pub use folder::RunFolder;
-pub use frames::FrameWriter;
+pub use frames::{FrameWriter, frame_name};
 pub use series::SeriesWriter;
 pub use summary::Summary;
+pub use unpack::read_array;
 pub use vtp::{Column, Frame};
 pub use whole::write_whole;

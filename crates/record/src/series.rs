@@ -6,7 +6,7 @@
 
 use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
-use std::io::Write as _;
+use std::io::{Read as _, Write as _};
 use std::path::PathBuf;
 
 use crate::{RecordError, RunFolder};
@@ -52,6 +52,56 @@ impl SeriesWriter {
         Ok(series)
     }
 
+    /// Takes up the series of a run that was stopped, as it was when it had `bytes` bytes; also gives the values so far,
+    /// column by column. What came after is cut off.
+    ///
+    /// # Errors
+    /// When the file is not there, is shorter, or has other columns.
+    pub fn resume(
+        folder: &RunFolder,
+        columns: &[(&str, &str)],
+        bytes: u64,
+    ) -> Result<(Self, Vec<Vec<f64>>), RecordError> {
+        let path = folder.path(NAME);
+        check(columns).map_err(|what| RecordError::caller(what, &path))?;
+        let cannot = |e| RecordError::machine("it could not be read", &path, e);
+        let mut options = OpenOptions::new();
+        let mut file = options
+            .read(true)
+            .append(true)
+            .open(&path)
+            .map_err(cannot)?;
+        let mut text = String::new();
+        (&mut file)
+            .take(bytes)
+            .read_to_string(&mut text)
+            .map_err(cannot)?;
+        let values = read_rows(&text, columns).filter(|_| text.len() as u64 == bytes);
+        let Some(values) = values else {
+            return Err(RecordError::arguments(
+                "it is not the series that the checkpoint was written with",
+                &path,
+                "Put the file of this run back, or run the scene again.",
+            ));
+        };
+        file.set_len(bytes)
+            .map_err(|e| RecordError::machine("it could not be cut back", &path, e))?;
+        let units = columns.iter().map(|(n, u)| (n.to_string(), u.to_string()));
+        let series = Self {
+            file,
+            path,
+            units: units.collect(),
+            whole: bytes,
+        };
+        Ok((series, values))
+    }
+
+    /// Forces the rows so far to the disk, and gives their length in bytes, for a checkpoint.
+    pub fn mark(&self) -> Result<u64, RecordError> {
+        self.force()?;
+        Ok(self.whole)
+    }
+
     /// Adds a row, one value per column; a value that is no number is written as `NaN`, `inf` or `-inf`.
     pub fn row(&mut self, values: &[f64]) -> Result<(), RecordError> {
         if values.len() != self.units.len() {
@@ -79,6 +129,10 @@ impl SeriesWriter {
 
     /// Forces every row to the disk.
     pub fn finish(self) -> Result<(), RecordError> {
+        self.force()
+    }
+
+    fn force(&self) -> Result<(), RecordError> {
         self.file
             .sync_all()
             .map_err(|e| RecordError::machine("it could not be forced to the disk", &self.path, e))
@@ -98,6 +152,26 @@ impl SeriesWriter {
         self.whole += line.len() as u64;
         Ok(())
     }
+}
+
+/// The values of whole rows below a header with these names, by column; `None` if that is not what it is.
+fn read_rows(text: &str, columns: &[(&str, &str)]) -> Option<Vec<Vec<f64>>> {
+    let mut lines = text.strip_suffix('\n')?.split('\n');
+    let names = lines.next()?.split(',');
+    if !names.eq(columns.iter().map(|(name, _)| *name)) {
+        return None;
+    }
+    let mut values = vec![Vec::new(); columns.len()];
+    for line in lines {
+        let mut cells = line.split(',');
+        for column in &mut values {
+            column.push(cells.next()?.parse().ok()?);
+        }
+        if cells.next().is_some() {
+            return None;
+        }
+    }
+    Some(values)
 }
 
 fn check(columns: &[(&str, &str)]) -> Result<(), String> {
@@ -183,6 +257,40 @@ mod tests {
             assert_eq!(series.row(row).unwrap_err().fault(), Fault::Caller);
         }
         assert_eq!(fs::read_to_string(folder.path(NAME)).unwrap(), "a,b\n");
+    }
+
+    /// Taken up at a mark, with a row and a piece of one behind it: no gap, no row twice.
+    #[test]
+    fn a_series_goes_on_from_a_checkpoint() {
+        let scratch = Scratch::new();
+        let folder = scratch.run_folder();
+        let columns = [("time", "s"), ("a", "")];
+        let mut series = SeriesWriter::create(&folder, &columns).unwrap();
+        let path = folder.path(NAME);
+        let rows = [[0.0, -0.0], [0.1, f64::NAN], [0.2, f64::NEG_INFINITY]];
+        series.row(&rows[0]).unwrap();
+        series.row(&rows[1]).unwrap();
+        let mark = series.mark().unwrap();
+        series.row(&rows[2]).unwrap();
+        let whole = fs::read(&path).unwrap();
+        drop(series);
+        fs::write(&path, [&whole[..], b"0.3"].concat()).unwrap();
+        let (mut series, values) = SeriesWriter::resume(&folder, &columns, mark).unwrap();
+        assert_eq!(values[0], [0.0, 0.1]);
+        assert_eq!(values[1][0].to_bits(), (-0.0f64).to_bits());
+        assert!(values[1][1].is_nan());
+        series.row(&rows[2]).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), whole);
+        for (columns, mark) in [
+            (&columns[..1], mark),
+            (&columns[..], mark - 1),
+            (&columns[..], 1000),
+            (&[("time", "s"), ("b", "")][..], mark),
+        ] {
+            let error = SeriesWriter::resume(&folder, columns, mark).unwrap_err();
+            assert_eq!(error.exit_code(), 2, "{error}");
+            assert_eq!(fs::read(&path).unwrap(), whole, "a refusal changes nothing");
+        }
     }
 
     #[test]

@@ -16,17 +16,29 @@ pub(crate) const PART_SUFFIX: &str = ".tsubu-part";
 /// The bytes go to a hidden file in the same folder, are forced to the disk, and the file takes its name last.
 /// That hidden file always has the same name, so a killed run leaves at most one of them behind per file.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), RecordError> {
+    write_whole_by(path, |file| file.write_all(bytes))
+}
+
+/// The same with a file that `write` fills.
+pub(crate) fn write_whole_by(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> io::Result<()>,
+) -> Result<(), RecordError> {
     let part = part_of(path)?;
-    write_and_rename(&part, path, bytes).map_err(|cause| {
+    write_and_rename(&part, path, write).map_err(|cause| {
         // Best effort: the error to report is the first one.
         fs::remove_file(&part).ok();
         RecordError::machine("it could not be written", path, cause)
     })
 }
 
-fn write_and_rename(part: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
+fn write_and_rename(
+    part: &Path,
+    path: &Path,
+    write: impl FnOnce(&mut File) -> io::Result<()>,
+) -> io::Result<()> {
     let mut file = File::create(part)?;
-    file.write_all(bytes)?;
+    write(&mut file)?;
     file.sync_all()?;
     drop(file);
     fs::rename(part, path)

@@ -3,7 +3,24 @@
 use crate::check::Checked;
 use crate::error::SceneError;
 use crate::grain_file::GrainFile;
-use crate::scene::{Initial, StartingGrain};
+use crate::scene::{Initial, Scene, Shape, StartingGrain};
+use std::path::Path;
+
+impl Scene {
+    /// The files that it names: meshes of walls, the mesh that is filled, the grains.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let walls = self.walls.iter().filter_map(|wall| match &wall.shape {
+            Shape::Mesh { mesh, .. } => Some(&*mesh.path),
+            _ => None,
+        });
+        let start = match &self.initial {
+            Initial::Fill(fill) => fill.within.as_ref().map(|mesh| &*mesh.path),
+            Initial::File(path) => Some(&**path),
+            Initial::Grains(_) | Initial::Bed(_) => None,
+        };
+        walls.chain(start)
+    }
+}
 
 impl Checked {
     /// The grains listed in the scene or read from its file; `None` if they are to be placed by a [`Fill`](crate::Fill) or a [`Bed`](crate::Bed).

@@ -3,6 +3,7 @@
 use crate::seeds::Seeds;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
+use std::time::Duration;
 use tsubu::engine::Lanes;
 
 /// Granular physics for machines and rivers.
@@ -11,7 +12,7 @@ use tsubu::engine::Lanes;
     name = "tsubu",
     version,
     arg_required_else_help = true,
-    after_help = "Try:  tsubu run scenarios/angle_of_repose.ron --set grains.coarse=3\n\nExit codes: 0 done, 2 the scene or the arguments are wrong, 3 the physics failed, 4 the machine failed, 130 stopped by a signal."
+    after_help = "Try:  tsubu run scenarios/angle_of_repose.ron --set grains.coarse=3\n\nExit codes: 0 done, 2 the scene or the arguments are wrong, 3 the physics failed, 4 the machine failed, 130 stopped by a signal, checkpoint written."
 )]
 pub struct Arguments {
     /// What to do.
@@ -27,6 +28,9 @@ pub enum Command {
         after_help = "Example:  tsubu run scenarios/angle_of_repose.ron --set grains.coarse=3 --until \"2 s\""
     )]
     Run(RunWish),
+    /// Go on with a run that was stopped or killed, from its newest whole checkpoint, to the bits of one never stopped
+    #[command(after_help = "Example:  tsubu resume out/angle_of_repose --until \"2 s\"")]
+    Resume(ResumeWish),
     /// Say what a scene models and what not, its step against the limits, and what it will cost
     #[command(
         after_help = "Example:  tsubu check scenarios/angle_of_repose.ron --set grains.coarse=1"
@@ -60,15 +64,53 @@ pub struct SceneWish {
     /// End of the run, as "2 s"; short for --set time.until=…
     #[arg(long, value_name = "TIME")]
     pub until: Option<String>,
+    /// On what.
+    #[command(flatten)]
+    pub machine: MachineWish,
+    /// Run even if the step is over its limit
+    #[arg(long)]
+    pub allow_unstable: bool,
+}
+
+/// What the machine is to do, which changes no bit of the result.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct MachineWish {
     /// Threads [default: as many as pay for the number of grains]; changes no bit of the result
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Vector instructions; changes no bit of the result
     #[arg(long, value_parser = lanes, default_value = "auto", value_name = "auto|portable|avx2|avx512")]
     pub lanes: LanesWish,
-    /// Run even if the step is over its limit
-    #[arg(long)]
-    pub allow_unstable: bool,
+}
+
+/// How often a run writes a checkpoint.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct KeepWish {
+    /// Minutes of wall time between two checkpoints, or `never`; changes no bit of the result
+    #[arg(long, value_parser = minutes, default_value = "10", value_name = "MINUTES|never")]
+    pub checkpoint_every: MinutesWish,
+}
+
+impl KeepWish {
+    /// The time between two; `None` for none at all.
+    pub fn every(&self) -> Option<Duration> {
+        self.checkpoint_every.0
+    }
+}
+
+/// A time, or never.
+#[derive(Clone, Copy, Debug)]
+pub struct MinutesWish(Option<Duration>);
+
+fn minutes(text: &str) -> Result<MinutesWish, String> {
+    if text == "never" {
+        return Ok(MinutesWish(None));
+    }
+    let minutes = text.trim().parse::<f64>().ok().filter(|m| *m >= 0.0);
+    minutes
+        .and_then(|m| Duration::try_from_secs_f64(60.0 * m).ok())
+        .map(|every| MinutesWish(Some(every)))
+        .ok_or_else(|| "expected a number of minutes, as 10 or 0.5, or never".to_owned())
 }
 
 /// `tsubu run`.
@@ -86,6 +128,26 @@ pub struct RunWish {
     /// Run the scene with several seeds, as 4 (seeds 1 to 4), 1,2,7 or 3..6, and give means with their standard errors; --threads then counts the threads of all runs together
     #[arg(long, value_parser = Seeds::read, value_name = "N|LIST|FROM..TO")]
     pub seeds: Option<Seeds>,
+    /// Checkpoints.
+    #[command(flatten)]
+    pub keep: KeepWish,
+}
+
+/// `tsubu resume`.
+#[derive(Debug, Args)]
+pub struct ResumeWish {
+    /// The folder of the run
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Another end of the run, as "2 s"
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<String>,
+    /// On what.
+    #[command(flatten)]
+    pub machine: MachineWish,
+    /// Checkpoints.
+    #[command(flatten)]
+    pub keep: KeepWish,
 }
 
 /// `tsubu check`.

@@ -1,9 +1,9 @@
 //! The end of a run: the summary, and one paragraph for the person who waited.
 
+use crate::keep::Spent;
 use crate::rows::Rows;
 use crate::trouble::Trouble;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 use tsubu::assemble::{Plan, Simulation, Stop};
 use tsubu::engine::Health;
 use tsubu::record::{RunFolder, Summary};
@@ -16,22 +16,6 @@ pub struct Pictures {
     pub film: Option<PathBuf>,
     /// The figures, the most important first.
     pub figures: Vec<PathBuf>,
-}
-
-/// How long a run took: in all, and in steps alone.
-#[derive(Clone, Copy, Debug)]
-pub struct Spent {
-    /// From start to end.
-    pub wall: Duration,
-    /// In steps and list builds, without looking, writing and drawing.
-    pub stepping: Duration,
-}
-
-impl Spent {
-    /// Grain-steps per second of stepping.
-    pub fn rate(&self, run: &dyn Simulation) -> f64 {
-        run.grains() as f64 * run.steps() as f64 / self.stepping.as_secs_f64().max(1e-9)
-    }
 }
 
 /// Writes `summary.json`, and returns it.

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 use tsubu::assemble::{Machine, Simulation, Snapshot};
-use tsubu::model::Shell;
+use tsubu::model::{Damaged, Pose, Saved, Shell, Words};
 use tsubu::picture::{Animation, Camera, Image, Radii, Scene3, Segment, View};
-use tsubu::record::{Column, Faces, Frame, FrameWriter, RunFolder};
+use tsubu::record::{Column, Faces, Frame, FrameWriter, RunFolder, frame_name, read_array};
 
 /// Most grains kept in memory for the animation, over all its pictures.
 const MOST_KEPT: usize = 12_000_000;
@@ -20,6 +20,8 @@ const LEAD: f64 = 0.1;
 
 /// One picture to come.
 struct Shot {
+    /// Number of the frame that shows the same moment, if frames are written.
+    frame: Option<usize>,
     time: f64,
     centres: Vec<[f32; 3]>,
     speeds: Vec<f32>,
@@ -85,8 +87,86 @@ impl Film {
         }
     }
 
-    /// Keeps a snapshot, or not, so that the whole stays within bounds and evenly spaced.
-    pub fn add(&mut self, run: &dyn Simulation, snapshot: &Snapshot) {
+    /// What a checkpoint holds of it: the grains of a picture are those of its frame, and without frames there are none.
+    pub fn save(&self, words: &mut Words) {
+        words.put_part("film");
+        words.put_number(f64::from(self.radius));
+        words.put_whole(self.keep as u64);
+        words.put_whole(self.seen as u64);
+        let known = || {
+            self.shots
+                .iter()
+                .filter_map(|shot| Some((shot, shot.frame?)))
+        };
+        words.put_whole(known().count() as u64);
+        for (shot, frame) in known() {
+            words.put_whole(frame as u64);
+            words.put_number(shot.time);
+            words.put_whole(shot.walls.len() as u64);
+            shot.walls
+                .as_flattened()
+                .iter()
+                .for_each(|x| words.put_vector(*x));
+            words.put_whole(shot.machines.len() as u64);
+            for machine in &shot.machines {
+                words.put_whole(machine.number as u64);
+                machine.pose.save(words);
+            }
+        }
+    }
+
+    /// Takes it back, the grains from the frames. A picture whose frame is gone is left out.
+    pub fn resume(
+        folder: &RunFolder,
+        machines: &[Machine],
+        words: &mut Words,
+    ) -> Result<Self, Damaged> {
+        words.take_part("film")?;
+        let mut film = Self {
+            radius: words.take_number()? as f32,
+            keep: words.take_whole()?.max(1) as usize,
+            seen: words.take_whole()? as usize,
+            ..Self::new()
+        };
+        for _ in 0..words.take_count(4)? {
+            let frame = words.take_whole()? as usize;
+            let time = words.take_number()?;
+            let mut walls = Vec::new();
+            for _ in 0..words.take_count(6)? {
+                walls.push([words.take_vector()?, words.take_vector()?]);
+            }
+            let mut there = Vec::new();
+            for _ in 0..words.take_count(22)? {
+                let number = words.take_whole()? as usize;
+                let mut pose = Pose::default();
+                pose.restore(words)?;
+                let machine = machines.iter().find(|machine| machine.number == number);
+                there.extend(machine.map(|machine| Machine {
+                    pose,
+                    ..machine.clone()
+                }));
+            }
+            let path = folder.path(frame_name(frame));
+            let threes = |name| Some(read_array(&path, name)?.as_chunks::<3>().0.to_vec());
+            let (Some(centres), Some(velocities)) = (threes("Points"), threes("velocity")) else {
+                continue;
+            };
+            let speed = |v: &[f32; 3]| glam::Vec3::from(*v).length();
+            film.shots.push(Shot {
+                frame: Some(frame),
+                time,
+                centres,
+                speeds: velocities.iter().map(speed).collect(),
+                walls,
+                machines: there,
+            });
+        }
+        Ok(film)
+    }
+
+    /// Keeps a snapshot, or not, so that the whole stays within bounds and evenly spaced; `frame` is the number of the frame
+    /// that shows it too.
+    pub fn add(&mut self, run: &dyn Simulation, snapshot: &Snapshot, frame: Option<usize>) {
         let due = self.seen.is_multiple_of(self.keep);
         self.seen += 1;
         if !due {
@@ -95,6 +175,7 @@ impl Film {
         self.radius = snapshot.grains.first().map_or(0.0, |g| g.radius);
         let far = DVec3::splat(1e3);
         self.shots.push(Shot {
+            frame,
             time: snapshot.time,
             centres: snapshot.grains.iter().map(|g| g.position).collect(),
             speeds: snapshot

@@ -5,11 +5,15 @@ mod say;
 mod arguments;
 mod check;
 mod clock;
+mod course;
 mod ending;
 mod figures;
 mod film;
+mod keep;
 mod mesh;
+mod outputs;
 mod progress;
+mod resume;
 mod rows;
 mod run;
 mod seeds;
@@ -32,6 +36,7 @@ fn main() -> ExitCode {
     };
     let done = match arguments.command {
         arguments::Command::Run(wish) => run::run(&wish),
+        arguments::Command::Resume(wish) => resume::resume(&wish),
         arguments::Command::Check(wish) => check::check(&wish),
         arguments::Command::Tune(wish) => tune::tune(&wish),
         arguments::Command::Mesh(wish) => mesh::mesh(&wish),

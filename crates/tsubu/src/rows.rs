@@ -2,6 +2,7 @@
 
 use crate::trouble::Trouble;
 use tsubu::assemble::Simulation;
+use tsubu::model::Words;
 use tsubu::record::{RunFolder, SeriesWriter};
 
 /// Rows written and kept.
@@ -27,6 +28,35 @@ impl Rows {
         };
         rows.put(run.time(), readings.iter().map(|r| r.value))?;
         Ok(rows)
+    }
+
+    /// Takes up the rows of a run that was stopped.
+    pub fn resume(folder: &RunFolder, words: &mut Words) -> Result<Self, Trouble> {
+        words.take_part("rows")?;
+        let bytes = words.take_whole()?;
+        let mut named = Vec::new();
+        for _ in 0..words.take_count(2)? {
+            named.push((words.take_text()?, words.take_text()?));
+        }
+        let header: Vec<(&str, &str)> = named.iter().map(|(n, u)| (&**n, &**u)).collect();
+        let (writer, columns) = SeriesWriter::resume(folder, &header, bytes)?;
+        Ok(Self {
+            writer,
+            names: named.into_iter().map(|(name, _)| name).collect(),
+            columns,
+        })
+    }
+
+    /// Where they are, for a checkpoint; forced to the disk.
+    pub fn save(&self, words: &mut Words) -> Result<(), Trouble> {
+        words.put_part("rows");
+        words.put_whole(self.writer.mark()?);
+        words.put_whole(self.names.len() as u64);
+        for (name, unit) in self.writer.units() {
+            words.put_text(name);
+            words.put_text(unit);
+        }
+        Ok(())
     }
 
     /// Looks and writes a row.

@@ -6,15 +6,17 @@ mod wish;
 pub use wish::Seeds;
 
 use crate::arguments::RunWish;
+use crate::course::{Course, End, Place, Ran};
 use crate::ending::{self, Pictures};
+use crate::keep::Begun;
 use crate::progress::Progress;
-use crate::run::{End, Ran, choices, command_line, one, stem, until_signal};
+use crate::run::{begun, choices, command_line, stem, until_signal};
 use crate::trouble::Trouble;
 use indicatif::MultiProgress;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tsubu::assemble::{Choices, build, threads_that_pay};
 use tsubu::record::{RunFolder, Summary};
 use tsubu::scene::Checked;
@@ -26,6 +28,8 @@ struct Job<'a> {
     folder: &'a RunFolder,
     stopped: &'a AtomicBool,
     bars: MultiProgress,
+    begun: Begun,
+    every: Option<Duration>,
 }
 
 impl Job<'_> {
@@ -36,11 +40,17 @@ impl Job<'_> {
         let built = build(&checked, &self.choices)?;
         let folder = self.folder.of_seed(seed)?;
         let progress = Progress::among(&self.bars, &format!("seed {seed}: "));
-        let ran = one(&checked, built, &folder, self.stopped, progress, start)?;
+        let place = Place {
+            folder: &folder,
+            stopped: self.stopped,
+            start,
+            every: self.every,
+        };
+        let ran = Course::begin(place, &checked, built, self.begun.clone())?.go(progress)?;
         let words = match &ran.end {
             End::Over => ending::result(&ran.summary),
             End::Failed(words) => format!("failed: {words}"),
-            End::Stopped { time } => format!("stopped by a signal at t = {time:.6} s"),
+            End::Stopped { time, .. } => format!("stopped by a signal at t = {time:.6} s"),
         };
         self.bars.suspend(|| tell!("seed {seed}: {words}"));
         Ok(ran)
@@ -92,7 +102,7 @@ pub fn run(wish: &RunWish, seeds: &Seeds, checked: &Checked) -> Result<u8, Troub
                 .into(),
         ));
     }
-    let total = wish.scene.threads.map_or_else(
+    let total = wish.scene.machine.threads.map_or_else(
         || thread::available_parallelism().map_or(1, |n| n.get()),
         usize::from,
     );
@@ -120,6 +130,8 @@ pub fn run(wish: &RunWish, seeds: &Seeds, checked: &Checked) -> Result<u8, Troub
         folder: &folder,
         stopped: &stopped,
         bars: MultiProgress::new(),
+        begun: begun(&wish.scene),
+        every: wish.keep.every(),
     };
     let ended = job.run_all(seeds, at_once)?;
     let over: Vec<(u64, &Ran)> = ended

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::io::IsTerminal;
+use tsubu::model::Damaged;
 use tsubu::picture::PictureError;
 use tsubu::record::RecordError;
 use tsubu::scene::SceneError;
@@ -59,6 +60,15 @@ impl fmt::Display for Trouble {
 impl From<SceneError> for Trouble {
     fn from(error: SceneError) -> Self {
         Trouble::Scene(Box::new(error))
+    }
+}
+
+impl From<Damaged> for Trouble {
+    fn from(error: Damaged) -> Self {
+        Trouble::Arguments(format!(
+            "the checkpoint is whole, but this program cannot go on from it: {error}\n\
+             help: go on with the version of tsubu that wrote it, or run the scene again"
+        ))
     }
 }
 

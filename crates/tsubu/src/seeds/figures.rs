@@ -1,7 +1,7 @@
 //! Figures of several seeds: the result of each beside theory, and the curves of all in one.
 
+use crate::course::Ran;
 use crate::figures::{capital, save};
-use crate::run::Ran;
 use crate::trouble::Trouble;
 use std::path::PathBuf;
 use tsubu::model::Curve;

@@ -5,7 +5,7 @@ use crate::validate::check::Tolerance;
 use crate::validate::report::Report;
 use glam::DVec2;
 use tsubu_contact::SpringDashpot;
-use tsubu_model::{Kind, Load, Plane, Seen, Spins, View};
+use tsubu_model::{Damaged, Kind, Load, Plane, Saved, Seen, Spins, View, Words};
 use tsubu_stream::{Datum, Sediment, Setting, Stream, Table, Turbulence, Water};
 
 const GRAVITY: f64 = 9.80665;
@@ -15,6 +15,14 @@ const LONG: f64 = 0.25;
 
 /// Water whose bottom is given.
 struct Mean(Stream);
+
+/// It knows nothing but its constants.
+impl Saved for Mean {
+    fn save(&self, _words: &mut Words) {}
+    fn restore(&mut self, _words: &mut Words) -> Result<(), Damaged> {
+        Ok(())
+    }
+}
 
 impl Load<Plane, Spins> for Mean {
     fn is_due(&self, _t: f64) -> bool {
