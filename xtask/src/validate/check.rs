@@ -10,7 +10,6 @@ pub enum Evidence {
     /// Another program.
     CrossCode,
     /// A measurement in a laboratory.
-    #[allow(dead_code)] // named by the house's tiers of evidence; its first suite is to come
     Experiment,
 }
 

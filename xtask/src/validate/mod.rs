@@ -6,6 +6,7 @@ mod bedload;
 mod check;
 mod coarsen;
 pub mod collision;
+mod hertz;
 pub mod kept;
 pub mod lab;
 mod report;
@@ -82,10 +83,19 @@ const SUITES: &[Suite] = &[
         speed: SMALL_BEDS,
         run: bedload::run,
     },
+    Suite {
+        name: "hertz",
+        about: "law Hertz–Mindlin: Hertz, restitution, eight published impacts, grazing, rolling, piles of three",
+        full_grain_steps: hertz::FULL_GRAIN_STEPS,
+        speed: SINGLE_CONTACTS,
+        run: hertz::run,
+    },
 ];
 
 /// Many suites step a handful of grains at a time, where the cost is that of the step and not of the grain.
 const FEW_GRAINS: f64 = 1.5e7;
+/// One or two grains that turn, looked at after every step.
+const SINGLE_CONTACTS: f64 = 2.0e6;
 /// One grain on a mesh, where most of the time goes into making grids.
 const ONE_GRAIN_ON_A_MESH: f64 = 1.0e5;
 /// Beds of some hundred grains that turn, two side by side.

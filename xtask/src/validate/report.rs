@@ -74,6 +74,25 @@ impl Report {
         );
     }
 
+    /// The same against a measurement in a laboratory.
+    pub fn experiment(
+        &mut self,
+        name: impl Into<String>,
+        expected: f64,
+        got: f64,
+        tolerance: Tolerance,
+        note: &str,
+    ) {
+        self.add(
+            name.into(),
+            expected,
+            got,
+            tolerance,
+            Evidence::Experiment,
+            note,
+        );
+    }
+
     fn add(
         &mut self,
         name: String,
