@@ -4,6 +4,7 @@
 //! of the house. Both print what they found and end with exit code 1 on a failure.
 
 mod chart;
+mod faults;
 mod meshes;
 mod stability;
 mod tidy;
@@ -54,6 +55,30 @@ enum Task {
         /// Maps to make: plane, packings, springs, impact, gap, tunnel; none named = all.
         maps: Vec<String>,
     },
+    /// Make go wrong what can go wrong: kills at random moments, full disks, damaged checkpoints, mutated input; exit 1 if one
+    /// ends otherwise than documented.
+    Faults {
+        /// Parts to try: kills, files, memory, readers, soak; none named = all (the soak only with --full).
+        parts: Vec<String>,
+        /// The long version: 200 kills, a million inputs per reader, hours of soak.
+        #[arg(long)]
+        full: bool,
+        /// What moments and inputs are drawn from.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+    },
+    /// Mutated inputs to one reader; used by `faults`, and to have a failure again.
+    #[command(name = "fuzzed-reader", hide = true)]
+    FuzzedReader {
+        /// Which reader.
+        name: String,
+        /// Number of the first input.
+        from: u64,
+        /// How many.
+        count: u64,
+        /// What they are drawn from.
+        seed: u64,
+    },
     /// Write the STL files of the screw feeder into scenarios/meshes, and say what is in them.
     Meshes,
     /// Hold the sources against the invariants of the house.
@@ -66,6 +91,13 @@ fn main() -> ExitCode {
         Task::Chart { charts } => chart::run(&root(), &charts),
         Task::CountedSteps { scheme, steps } => chart::collision::counted(scheme, steps),
         Task::Stability { maps } => stability::run(&root(), &maps),
+        Task::Faults { parts, full, seed } => faults::run(&root(), &parts, full, seed),
+        Task::FuzzedReader {
+            name,
+            from,
+            count,
+            seed,
+        } => faults::child(&root(), &name, [from, count, seed]),
         Task::Meshes => meshes::run(&root()),
         Task::Tidy => tidy::run(&root()),
     };

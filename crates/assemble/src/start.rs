@@ -22,6 +22,9 @@ fn most_overlap(checked: &Checked) -> f64 {
     (MOST_OVERLAP * checked.scene.grains.soften.sqrt()).min(0.1)
 }
 
+/// Bytes that a grain takes while a run is built and goes: lines, lists and their scratch, with some room.
+const BYTES_PER_GRAIN: f64 = 400.0;
+
 /// Most grains of a scene.
 const MOST_GRAINS: f64 = 2e8;
 
@@ -70,10 +73,34 @@ pub(crate) fn grains<D: Dim>(
     Ok(grains)
 }
 
+/// Refuses what this machine, or a limit set on this process, has no memory for: asked before anything is made, as a
+/// program that runs out on the way can only fall.
+fn refuse_without_memory(
+    checked: &Checked,
+    path: &str,
+    kind: &str,
+    count: f64,
+) -> Result<(), SceneError> {
+    let bytes = count * BYTES_PER_GRAIN;
+    let mut probe = Vec::<u8>::new();
+    let there = probe.try_reserve_exact(bytes as usize).is_ok();
+    // Memory that nobody looks at need not be asked for at all.
+    std::hint::black_box(&mut probe);
+    if there {
+        return Ok(());
+    }
+    let what = format!(
+        "the {kind} asks for {count:.0} grains, which take about {:.1} GB of memory, and this machine does not give as much",
+        bytes / 1e9
+    );
+    let remedy = "shrink it, raise grains.coarse, or run it where there is more memory";
+    Err(checked.problem(path, what, remedy).by_machine())
+}
+
 /// Refuses more grains than memory holds, before any is placed.
 fn refuse_crowd(checked: &Checked, path: &str, kind: &str, count: f64) -> Result<(), SceneError> {
     if count <= MOST_GRAINS {
-        return Ok(());
+        return refuse_without_memory(checked, path, kind, count);
     }
     let what = format!("the {kind} asks for {count:.0} grains, more than any machine here holds");
     Err(checked.problem(path, what, "shrink it or raise grains.coarse"))

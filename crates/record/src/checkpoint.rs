@@ -252,9 +252,23 @@ fn write(file: &mut File, checkpoint: &Checkpoint) -> io::Result<()> {
     out.to.flush()
 }
 
+impl Checkpoint {
+    /// Reads what a file of these bytes would say; `Err` says why it is none.
+    pub fn parse(bytes: &[u8]) -> Result<Self, String> {
+        read_from(bytes, bytes.len() as u64).map_err(|refusal| match refusal {
+            Refusal::Machine(cause) => cause.to_string(),
+            Refusal::Damaged(what) | Refusal::Foreign(what) => what,
+        })
+    }
+}
+
 fn read(path: &Path) -> Result<Checkpoint, Refusal> {
     let file = File::open(path).map_err(Refusal::Machine)?;
     let length = file.metadata().map_err(Refusal::Machine)?.len();
+    read_from(BufReader::new(file), length)
+}
+
+fn read_from(mut file: impl Read, length: u64) -> Result<Checkpoint, Refusal> {
     let first = FIRST_LINE.len() as u64;
     if length < first + 8 + CHECKSUM {
         return Err(Refusal::Damaged(format!(
@@ -266,7 +280,6 @@ fn read(path: &Path) -> Result<Checkpoint, Refusal> {
             "it is {length} bytes long, more than any checkpoint is"
         )));
     }
-    let mut file = BufReader::new(file);
     let mut line = [0; FIRST_LINE.len()];
     let mut take = |bytes: &mut [u8]| file.read_exact(bytes).map_err(Refusal::Machine);
     take(&mut line)?;

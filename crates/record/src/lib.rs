@@ -55,6 +55,6 @@ pub use folder::RunFolder;
 pub use frames::{FrameWriter, frame_name};
 pub use series::SeriesWriter;
 pub use summary::Summary;
-pub use unpack::read_array;
+pub use unpack::{array_in, read_array};
 pub use vtp::{Column, Frame};
 pub use whole::write_whole;

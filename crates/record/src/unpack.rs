@@ -11,7 +11,11 @@ const MARK: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
 /// The single-precision numbers of an array of a frame, such as `Points`; `None` if the file is not there or is not as
 /// [`FrameWriter`](crate::FrameWriter) writes it.
 pub fn read_array(path: &Path, name: &str) -> Option<Vec<f32>> {
-    let file = fs::read(path).ok()?;
+    array_in(&fs::read(path).ok()?, name)
+}
+
+/// The same of the bytes of a file.
+pub fn array_in(file: &[u8], name: &str) -> Option<Vec<f32>> {
     let at = file.windows(MARK.len()).position(|w| w == MARK)?;
     let (header, data) = (
         std::str::from_utf8(&file[..at]).ok()?,

@@ -13,6 +13,7 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 pub struct SceneError {
     first: Box<Trouble>,
     more: Vec<Trouble>,
+    of_machine: bool,
 }
 
 /// One trouble.
@@ -60,6 +61,7 @@ impl SceneError {
         Some(SceneError {
             first: Box::new(first),
             more: troubles.collect(),
+            of_machine: false,
         })
     }
 
@@ -69,6 +71,18 @@ impl SceneError {
         self.more.push(*other.first);
         self.more.extend(other.more);
         self
+    }
+
+    /// The same, where the scene is sound and this machine is too small for it.
+    #[must_use]
+    pub fn by_machine(mut self) -> Self {
+        self.of_machine = true;
+        self
+    }
+
+    /// True if another machine could run the scene.
+    pub fn is_by_machine(&self) -> bool {
+        self.of_machine
     }
 
     /// What is wrong in one line: the first trouble without its place and remedy.
@@ -112,6 +126,7 @@ impl From<Trouble> for SceneError {
         SceneError {
             first: Box::new(trouble),
             more: Vec::new(),
+            of_machine: false,
         }
     }
 }

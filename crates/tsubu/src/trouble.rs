@@ -28,6 +28,7 @@ impl Trouble {
     /// 2 scene or arguments, 3 physics, 4 machine.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Trouble::Scene(error) if error.is_by_machine() => 4,
             Trouble::Scene(_) | Trouble::Arguments(_) => 2,
             Trouble::Physics(_) => 3,
             Trouble::Machine(_) => 4,
