@@ -245,3 +245,59 @@ fn grains_that_are_never_still_are_a_failure_of_the_scene_in_words() {
         .says("still.at_most");
     assert_eq!(summary(&scratch.join("run"))["ended"], "never still");
 }
+
+/// Runs a scene that fails and looks at what it says and keeps: the last checkpoint, and the state just before.
+fn fails_with(name: &str, text: &str, words: &[&str]) {
+    let scratch = Scratch::new(name);
+    scratch.write("scene.ron", text);
+    let outcome = run_in(scratch.path(), "run scene.ron --allow-unstable --out run");
+    outcome.is_one_message(3).says(" at t = ").says("help: ");
+    for word in words {
+        outcome.says(word);
+    }
+    outcome
+        .says("before_trouble.vtp")
+        .says("the last checkpoint is run/checkpoint/step_000000000000000.tsubu");
+    let folder = scratch.join("run");
+    assert_eq!(summary(&folder)["ended"], "trouble");
+    let left = tree(&folder);
+    assert!(left.contains_key("checkpoint/before_trouble.tsubu"));
+    // The frame before is sound: ParaView draws no grain whose place is not a number.
+    let frame = folder.join("checkpoint/before_trouble.vtp");
+    let points = tsubu::record::read_array(&frame, "Points").unwrap_or_default();
+    assert!(
+        !points.is_empty() && points.iter().all(|x| x.is_finite()),
+        "{points:?}"
+    );
+    assert_eq!(summary(&folder)["grains_lost"]["value"], 0.0);
+    // From the last checkpoint it fails in the same way.
+    let again = run_in(scratch.path(), "resume run");
+    again.is_one_message(3).says(words[0]);
+}
+
+/// Explicit Euler gives energy with each collision and damping takes none: it is noticed before a grain runs away.
+#[test]
+fn energy_from_nowhere_stops_a_run() {
+    let slow = BLOWS_UP.replace("PerPeriod(12)", "PerPeriod(200)");
+    fails_with(
+        "energy",
+        &slow,
+        &["energy grows from nowhere", "the fastest is grain "],
+    );
+}
+
+#[test]
+fn a_grain_that_runs_away_stops_a_run() {
+    fails_with("runaway", BLOWS_UP, &["grain "]);
+}
+
+/// Far too soft for their speed: the grains go deep into each other.
+#[test]
+fn a_deep_overlap_stops_a_run() {
+    let soft = BLOWS_UP
+        .replace("10 MPa", "100 Pa")
+        .replace("Equal(\"0 kg/s\")", "Equal(\"1e-9 kg/s\")")
+        .replace("ExplicitEuler", "SymplecticEuler")
+        .replace("PerPeriod(12)", "PerPeriod(2000)");
+    fails_with("deep", &soft, &["overlap by ", "soften"]);
+}

@@ -265,6 +265,8 @@ impl<D: Layout + Slices> Parts<'_, D> {
         let begins = scene.water.as_ref().map(|water| water.begins);
         let weigh_again = !self.bounded && begins.is_none();
         let movers: Vec<bool> = scene.walls.iter().map(|w| w.motion.is_some()).collect();
+        let works = water.is_some() || movers.contains(&true);
+        let watches_energy = !works && scene.outlets.is_empty() && scene.inlets.is_empty();
         Box::new(Running::<D, S, K, L, W, T> {
             shells: self
                 .surfaces
@@ -284,6 +286,8 @@ impl<D: Layout + Slices> Parts<'_, D> {
                 Law::Repulsion { .. } => 0.3,
                 Law::SpringDashpot { .. } => 0.9,
             },
+            watches_energy,
+            books: None,
             lost_bed: water,
             // Grains that turn have stiffer motions than the tables of limits know.
             weighs_released: !self.bounded,

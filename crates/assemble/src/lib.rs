@@ -30,6 +30,7 @@
 //! ```
 
 mod bed;
+mod books;
 mod build;
 mod constants;
 mod fill;
@@ -47,4 +48,4 @@ mod water;
 pub use build::{Built, Choices, Hearer, Watch, build, threads_that_pay};
 pub use constants::{Constants, Law};
 pub use plan::{LimitLine, Plan};
-pub use simulation::{Grain, Machine, Simulation, Snapshot, Stop};
+pub use simulation::{Count, Grain, Machine, Simulation, Snapshot, Stop};

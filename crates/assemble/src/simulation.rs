@@ -1,5 +1,6 @@
 //! A running scene behind one object, whatever its types: what the command, the validations and the tests hold.
 
+use crate::books::Books;
 use crate::gate::agitation;
 use glam::DVec3;
 use std::sync::Arc;
@@ -8,7 +9,7 @@ use tsubu_engine::{Health, KindSet, Layout, Tally, World};
 use tsubu_integrate::Scheme;
 use tsubu_model::{
     Change, ContactLaw, Curve, Damaged, Dim, Energies, Gate, Observer, Pose, Reading, Saved, Shell,
-    SpinState, Surface, View, Words,
+    SpinState, Surface, Vector, View, Words,
 };
 use tsubu_scene::End;
 
@@ -36,6 +37,21 @@ pub enum Stop {
         /// When it looked, in s.
         time: f64,
     },
+    /// The grains hold more energy than they can have: nothing works on them.
+    EnergyGrows {
+        /// When it was looked at, in s.
+        time: f64,
+        /// Energy that came from nowhere, in J.
+        gained: f64,
+        /// Energy that has moved since the start, in J.
+        moved: f64,
+        /// The fastest grain.
+        grain: u32,
+        /// Where it is, x y z in m.
+        place: [f64; 3],
+        /// Its speed in m/s.
+        speed: f64,
+    },
     /// The step is over the limit of the packing as it lies.
     UnstablePacking {
         /// When it was looked at, in s.
@@ -43,6 +59,24 @@ pub enum Stop {
         /// Share of the limit that it uses.
         used: f64,
     },
+}
+
+/// Where all the grains are that there have ever been.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// At the start and through inlets.
+    pub inserted: u64,
+    /// In the scene now.
+    pub present: u64,
+    /// Taken away by outlets.
+    pub deleted: u64,
+}
+
+impl Count {
+    /// Gone without a word; zero, always.
+    pub fn lost(&self) -> i64 {
+        self.inserted as i64 - self.present as i64 - self.deleted as i64
+    }
 }
 
 /// One grain of a snapshot, in single precision, for frames and pictures.
@@ -100,6 +134,8 @@ pub trait Simulation: Saved + Send {
     fn released_at(&self) -> Option<f64>;
     /// Number of grains.
     fn grains(&self) -> usize;
+    /// Where all the grains are that there have ever been.
+    fn count(&self) -> Count;
     /// Kinetic energy per grain over m g d.
     fn agitation(&self) -> f64;
     /// Observers look: one row of readings, always the same names.
@@ -166,6 +202,10 @@ pub(crate) struct Running<
     pub refuse_unstable: bool,
     /// The largest share of the limit that the packing used then.
     pub used: Option<f64>,
+    /// True if nothing works on the grains, so that their energy may not grow.
+    pub watches_energy: bool,
+    /// The energy at the start, once it was looked at.
+    pub books: Option<Books>,
     /// The law from the release on, if another one holds while the grains settle.
     pub law_after: Option<L>,
 }
@@ -199,6 +239,29 @@ where
         self.lost_bed
             .as_ref()
             .is_some_and(|lost| lost.load(Ordering::Relaxed))
+    }
+
+    /// Looks whether energy has grown that no work explains.
+    fn audit(&mut self) {
+        let Some(books) = &mut self.books else {
+            return;
+        };
+        let view: &dyn View<D, S> = &self.world;
+        let Some((gained, moved)) = books.grown(view) else {
+            return;
+        };
+        let speed = |i: usize| view.velocity(i).length();
+        let fastest = (0..view.len()).max_by(|&a, &b| speed(a).total_cmp(&speed(b)));
+        if let Some(i) = fastest {
+            self.trouble = Some(Stop::EnergyGrows {
+                time: view.time(),
+                gained,
+                moved,
+                grain: view.identity(i),
+                place: D::to_space(view.position(i)).to_array(),
+                speed: speed(i),
+            });
+        }
     }
 
     /// How much of the limit the packing uses as it lies now.
@@ -267,6 +330,8 @@ where
             words.put_whole(step.unwrap_or(0));
         }
         words.put_maybe(self.used);
+        words.put_flag(self.books.is_some());
+        self.books.unwrap_or_default().save(words);
         self.world.save(words);
         words.put_whole(self.gates.len() as u64);
         self.gates.iter().for_each(|gate| gate.save(words));
@@ -288,6 +353,10 @@ where
         }
         self.weigh_at = weigh_at;
         self.used = words.take_maybe()?;
+        let open = words.take_flag()?;
+        let mut books = Books::default();
+        books.restore(words)?;
+        self.books = open.then_some(books);
         self.trouble = None;
         if !still_settling && let Some(law) = self.law_after.take() {
             self.world.set_law(&law);
@@ -316,6 +385,9 @@ where
 {
     fn advance(&mut self, steps: u64) -> u64 {
         let start = self.world.steps();
+        if self.watches_energy && start == 0 && self.books.is_none() {
+            self.books = Some(Books::open(&self.world));
+        }
         while self.stop().is_none() {
             let now = self.world.steps();
             let mut batch = (start + steps.min(u64::MAX - start)).saturating_sub(now);
@@ -347,6 +419,9 @@ where
                     time: self.world.now(),
                 });
             } else {
+                if here.is_multiple_of(DEPTH_EVERY) {
+                    self.audit();
+                }
                 if self.weigh_at == Some(here) {
                     self.weigh();
                     self.weigh_at = self.weigh_again.then_some(2 * here);
@@ -391,6 +466,15 @@ where
 
     fn grains(&self) -> usize {
         self.world.len()
+    }
+
+    fn count(&self) -> Count {
+        let gates = self.world.passages();
+        Count {
+            inserted: self.world.inserted(),
+            present: self.world.len() as u64,
+            deleted: gates.iter().map(|gate| gate.went).sum(),
+        }
     }
 
     fn agitation(&self) -> f64 {

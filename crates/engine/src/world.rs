@@ -427,6 +427,11 @@ where
         self.dt
     }
 
+    /// Grains that there have ever been: those of the start and those that came.
+    pub fn inserted(&self) -> u64 {
+        u64::from(self.next_identity)
+    }
+
     /// Entries and blocks of all lists.
     pub fn list_counts(&self) -> (usize, usize) {
         self.chunks.iter().fold((0, 0), |s, c| {

@@ -9,13 +9,18 @@ use crate::trouble::Trouble;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use tsubu::assemble::{Built, Plan, Simulation, Stop};
+use tsubu::assemble::{Built, Choices, Plan, Simulation, Stop, build};
+use tsubu::engine::Health;
 use tsubu::model::{Curve, Words};
 use tsubu::record::{RunFolder, Summary, write_whole};
 use tsubu::scene::Checked;
 
 /// Steps between two looks at the clock and at signals: short enough to stop at once, long enough not to matter.
 const GLANCE: u64 = 64;
+/// Age of the state from which one before trouble is found again: that takes as long.
+const RECENT: Duration = Duration::from_secs(2);
+/// Steps between two looks for deep overlaps and for energy from nowhere.
+const LOOKS: u64 = 1000;
 
 /// How a run ended.
 pub enum End {
@@ -54,6 +59,8 @@ pub struct Place<'a> {
     pub start: Instant,
     /// Wall time between two checkpoints; `None` writes none.
     pub every: Option<Duration>,
+    /// What it was built with: a state before trouble is built again.
+    pub choices: &'a Choices,
 }
 
 /// A run under way.
@@ -67,6 +74,8 @@ pub struct Course<'a> {
     /// What the parts before the last resume took.
     before: Spent,
     stepping: Duration,
+    /// A state of a moment ago, and when it was taken: from there a state just before trouble is found again.
+    recent: (Words, Instant),
 }
 
 impl<'a> Course<'a> {
@@ -94,7 +103,9 @@ impl<'a> Course<'a> {
             keeper,
             before: Spent::default(),
             stepping: Duration::ZERO,
+            recent: (Words::new(), Instant::now()),
         };
+        course.remember();
         course.keep()?;
         Ok(course)
     }
@@ -114,7 +125,7 @@ impl<'a> Course<'a> {
         let outputs = Outputs::resume(place.folder, output, &machines, words)?;
         run.restore(words)?;
         let keeper = Keeper::new(place.folder, checked, begun, place.every)?;
-        Ok(Self {
+        let mut course = Self {
             place,
             checked,
             run,
@@ -123,7 +134,10 @@ impl<'a> Course<'a> {
             keeper,
             before,
             stepping: Duration::ZERO,
-        })
+            recent: (Words::new(), Instant::now()),
+        };
+        course.remember();
+        Ok(course)
     }
 
     /// The run as it is now.
@@ -136,6 +150,44 @@ impl<'a> Course<'a> {
             wall: self.before.wall + self.place.start.elapsed(),
             stepping: self.before.stepping + self.stepping,
         }
+    }
+
+    /// Takes the state of this moment, unless the run keeps nothing.
+    fn remember(&mut self) {
+        if self.keeper.keeps() {
+            let mut words = Words::new();
+            self.run.save(&mut words);
+            self.recent = (words, Instant::now());
+        }
+    }
+
+    /// The state just before trouble, found by running on from the recent one, which takes the same steps; where trouble is
+    /// looked for at times only, that of the look before. In words where it is.
+    fn keep_before(&mut self, stop: &Stop) -> Result<String, Trouble> {
+        let last = self.run.steps();
+        let before = match stop {
+            Stop::Trouble(Health::Runaway { .. }) => last.saturating_sub(1),
+            Stop::Trouble(Health::DeepOverlap { .. }) | Stop::EnergyGrows { .. } => {
+                last.saturating_sub(1) / LOOKS * LOOKS
+            }
+            _ => return Ok(String::new()),
+        };
+        if !self.keeper.keeps() {
+            return Ok(String::new());
+        }
+        let mut again = build(self.checked, self.place.choices)?.simulation;
+        again.restore(&mut std::mem::take(&mut self.recent.0))?;
+        again.advance(before.saturating_sub(again.steps()));
+        let study = self.keeper.keep_for_study(&*again)?;
+        let mut words = format!(
+            "\nnote: the grains at t = {:.6} s, before it, are in {}.vtp for ParaView, and in full beside it",
+            again.time(),
+            study.display()
+        );
+        if let Some(newest) = self.keeper.newest() {
+            words += &format!("\nnote: the last checkpoint is {}", newest.display());
+        }
+        Ok(words)
     }
 
     fn keep(&mut self) -> Result<Option<PathBuf>, Trouble> {
@@ -156,6 +208,9 @@ impl<'a> Course<'a> {
                 due -= self.run.advance(due.min(GLANCE)).min(due);
                 self.stepping += glance.elapsed();
                 progress.show(&*self.run, self.spent().stepping);
+                if self.recent.1.elapsed() > RECENT && self.goes_on() {
+                    self.remember();
+                }
                 // Not where outputs are still to come: those of a checkpoint are those up to its step.
                 if due > 0 && self.keeper.is_due() && self.goes_on() {
                     self.keep()?;
@@ -169,13 +224,17 @@ impl<'a> Course<'a> {
         let stop = self.run.stop();
         let sound = matches!(stop, None | Some(Stop::Over));
         let kept = if sound { self.keep()? } else { None };
+        let study = match &stop {
+            Some(stop) => self.keep_before(stop)?,
+            None => String::new(),
+        };
         self.outputs.last(&mut *self.run)?;
         let ended = match &stop {
             Some(Stop::Over) => "over",
             Some(Stop::NeverStill { .. }) => "never still",
             Some(Stop::NoBed { .. }) => "no bed",
             Some(Stop::UnstablePacking { .. }) => "unstable step",
-            Some(Stop::Trouble(_)) => "trouble",
+            Some(Stop::Trouble(_) | Stop::EnergyGrows { .. }) => "trouble",
             None => "stopped by a signal",
         };
         // Before the pictures, which may fail, and again with the time that they took.
@@ -193,7 +252,7 @@ impl<'a> Course<'a> {
         Ok(Ran {
             end: match stop {
                 Some(Stop::Over) => End::Over,
-                Some(stop) => End::Failed(ending::failure(&stop, &self.plan)),
+                Some(stop) => End::Failed(ending::failure(&stop, &self.plan) + &study),
                 None => End::Stopped {
                     time: self.run.time(),
                     kept,

@@ -47,6 +47,10 @@ pub fn summary(
     summary.plain("steps", run.steps() as f64, "");
     summary.plain("step", plan.constants.dt, "s");
     summary.plain("grains", run.grains() as f64, "");
+    let count = run.count();
+    summary.plain("grains_inserted", count.inserted as f64, "");
+    summary.plain("grains_deleted", count.deleted as f64, "");
+    summary.plain("grains_lost", count.lost() as f64, "");
     summary.plain("grain_steps_per_second", spent.rate(run), "1/s");
     summary.plain("bytes_per_grain", run.bytes_per_grain(), "B");
     summary.plain("threads", plan.threads as f64, "");
@@ -177,6 +181,17 @@ pub fn failure(stop: &Stop, plan: &Plan) -> String {
         Stop::NoBed { time } => format!(
             "the water found no bed at t = {time:.3} s: no grain has as many contacts as it asks for\n\
              help: let the grains settle longer before it begins (water.begins), lower water.bed_contacts, or give water.datum"
+        ),
+        Stop::EnergyGrows {
+            time,
+            gained,
+            moved,
+            grain,
+            place: at,
+            speed,
+        } => format!(
+            "energy grows from nowhere: at t = {time:.6} s the grains hold {gained:.3e} J more than at the start, where {moved:.3e} J have moved; the fastest is grain {grain} with {speed:.3e} m/s, at {}\n{smaller}",
+            place(at)
         ),
         Stop::UnstablePacking { time, used } => format!(
             "the step of {:.3e} s is over the limit of this packing: at t = {time:.3} s its stiffest motion uses {:.0} % of what the scheme bears\n\

@@ -3,12 +3,15 @@
 use crate::trouble::Trouble;
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tsubu::assemble::{Machine, Simulation, Snapshot};
 use tsubu::model::{Damaged, Pose, Saved, Shell, Words};
 use tsubu::picture::{Animation, Camera, Image, Radii, Scene3, Segment, View};
-use tsubu::record::{Column, Faces, Frame, FrameWriter, RunFolder, frame_name, read_array};
+use tsubu::record::vtp::encode;
+use tsubu::record::{
+    Column, Faces, Frame, FrameWriter, RunFolder, frame_name, read_array, write_whole,
+};
 
 /// Most grains kept in memory for the animation, over all its pictures.
 const MOST_KEPT: usize = 12_000_000;
@@ -38,6 +41,45 @@ pub struct Film {
     seen: usize,
 }
 
+/// The grains of a snapshot as a frame has them.
+struct Columns {
+    points: Vec<[f32; 3]>,
+    velocity: Vec<[f32; 3]>,
+    radius: Vec<f32>,
+    id: Vec<u32>,
+}
+
+impl Columns {
+    fn of(snapshot: &Snapshot) -> Self {
+        let grains = || snapshot.grains.iter();
+        Self {
+            points: grains().map(|g| g.position).collect(),
+            velocity: grains().map(|g| g.velocity).collect(),
+            radius: grains().map(|g| g.radius).collect(),
+            id: grains().map(|g| g.identity).collect(),
+        }
+    }
+
+    fn named(&self) -> [(&str, Column<'_>); 3] {
+        [
+            ("velocity", Column::Vector(&self.velocity)),
+            ("radius", Column::Scalar(&self.radius)),
+            ("id", Column::Id(&self.id)),
+        ]
+    }
+}
+
+/// Writes the grains of one moment into a file of its own, outside the list of frames.
+pub fn write_alone(path: &Path, snapshot: &Snapshot) -> Result<(), Trouble> {
+    let grains = Columns::of(snapshot);
+    let frame = Frame {
+        points: &grains.points,
+        columns: &grains.named(),
+    };
+    let bytes = encode(snapshot.time, &frame, path)?;
+    Ok(write_whole(path, &bytes)?)
+}
+
 /// Writes a ParaView frame: the grains, and the bodies that have triangles.
 pub fn write_frame(
     frames: &mut FrameWriter,
@@ -55,23 +97,15 @@ pub fn write_frame(
         triangles.extend(shell.triangles.iter().map(|t| t.map(|c| c + first)));
         bodies.resize(triangles.len(), machine.number as u32);
     }
-    let points: Vec<[f32; 3]> = snapshot.grains.iter().map(|g| g.position).collect();
-    let velocity: Vec<[f32; 3]> = snapshot.grains.iter().map(|g| g.velocity).collect();
-    let radius: Vec<f32> = snapshot.grains.iter().map(|g| g.radius).collect();
-    let id: Vec<u32> = snapshot.grains.iter().map(|g| g.identity).collect();
-    let columns = [
-        ("velocity", Column::Vector(&velocity)),
-        ("radius", Column::Scalar(&radius)),
-        ("id", Column::Id(&id)),
-    ];
+    let columns = Columns::of(snapshot);
     let faces = Faces {
         points: &corners,
         triangles: &triangles,
         bodies: &bodies,
     };
     let grains = Frame {
-        points: &points,
-        columns: &columns,
+        points: &columns.points,
+        columns: &columns.named(),
     };
     Ok(frames.write_with_bodies(snapshot.time, &grains, &faces)?)
 }

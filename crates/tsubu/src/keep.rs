@@ -1,8 +1,9 @@
 //! When a run writes checkpoints, and what stands in them.
 
+use crate::film::write_alone;
 use crate::outputs::Outputs;
 use crate::trouble::Trouble;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tsubu::assemble::Simulation;
 use tsubu::model::{Damaged, Words};
@@ -45,6 +46,7 @@ pub struct Keeper {
     begun: Begun,
     scene: String,
     files: Vec<(String, String)>,
+    newest: Option<PathBuf>,
 }
 
 impl Keeper {
@@ -67,6 +69,7 @@ impl Keeper {
             begun,
             scene: checked.scene.to_resolved_ron(),
             files,
+            newest: None,
         })
     }
 
@@ -103,7 +106,30 @@ impl Keeper {
         run.save(&mut state);
         let checkpoint = self.checkpoint(state);
         let file = self.checkpoints.write(run.steps(), &checkpoint)?;
+        self.newest = Some(file.clone());
         Ok(Some(file))
+    }
+
+    /// True if the run is to have checkpoints.
+    pub fn keeps(&self) -> bool {
+        self.every.is_some()
+    }
+
+    /// The last one written.
+    pub fn newest(&self) -> Option<&Path> {
+        self.newest.as_deref()
+    }
+
+    /// Keeps a state for study, as a checkpoint and as a frame; gives the path of both without its ending.
+    pub fn keep_for_study(&self, run: &dyn Simulation) -> Result<PathBuf, Trouble> {
+        const NAME: &str = "before_trouble";
+        let mut state = Words::new();
+        run.save(&mut state);
+        self.checkpoints
+            .write_for_study(NAME, &self.checkpoint(state))?;
+        let path = self.checkpoints.path(NAME);
+        write_alone(&path.with_extension("vtp"), &run.snapshot())?;
+        Ok(path)
     }
 
     fn checkpoint(&self, state: Words) -> Checkpoint {

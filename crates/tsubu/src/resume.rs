@@ -44,10 +44,8 @@ pub fn resume(wish: &ResumeWish) -> Result<u8, Trouble> {
     let mut words = checkpoint.state;
     let (begun, before) = take_begun(&mut words)?;
     let machine = &wish.machine;
-    let built = build(
-        &checked,
-        &choices_of(machine, begun.allow_unstable, Some(&wish.folder)),
-    )?;
+    let choices = choices_of(machine, begun.allow_unstable, Some(&wish.folder));
+    let built = build(&checked, &choices)?;
     let (lambda, threads) = (built.plan.constants.lambda, built.plan.threads);
     let stopped = until_signal();
     let place = Place {
@@ -55,6 +53,7 @@ pub fn resume(wish: &ResumeWish) -> Result<u8, Trouble> {
         stopped: &stopped,
         start,
         every: wish.keep.every(),
+        choices: &choices,
     };
     let scene_file = begun.scene_file.clone();
     let course = Course::resume(place, &checked, built, (begun, before), &mut words)?;

@@ -82,7 +82,8 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
     if let Some(seeds) = &wish.seeds {
         return seeds::run(wish, seeds, &checked);
     }
-    let built = build(&checked, &choices(&wish.scene, wish.out.as_deref()))?;
+    let choices = choices(&wish.scene, wish.out.as_deref());
+    let built = build(&checked, &choices)?;
     let folder = RunFolder::create(wish.out.as_deref(), &stem(&wish.scene), wish.force)?;
     tell!(
         "{}: {} grains, step {:.3e} s, {} thread(s), into {}",
@@ -99,6 +100,7 @@ pub fn run(wish: &RunWish) -> Result<u8, Trouble> {
         stopped: &stopped,
         start,
         every: wish.keep.every(),
+        choices: &choices,
     };
     let ran = Course::begin(place, &checked, built, begun(&wish.scene))?.go(Progress::new())?;
     let wall = start.elapsed().as_secs_f64();

@@ -45,6 +45,7 @@ impl Job<'_> {
             stopped: self.stopped,
             start,
             every: self.every,
+            choices: &self.choices,
         };
         let ran = Course::begin(place, &checked, built, self.begun.clone())?.go(progress)?;
         let words = match &ran.end {

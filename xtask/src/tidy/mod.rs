@@ -5,6 +5,7 @@
 
 mod arrows;
 mod copies;
+mod licences;
 mod manifest;
 mod map;
 mod sources;
@@ -79,8 +80,7 @@ const CHECKS: &[Check] = &[
 pub fn run(root: &Path) -> Result<bool, String> {
     let tree = Tree::read(root)?;
     let mut failures = 0;
-    for (name, check) in CHECKS {
-        let findings = check(&tree);
+    let mut say = |name: &str, findings: Vec<Finding>| {
         let failed = findings.iter().filter(|f| !f.warning).count();
         println!("{} {name}", if failed > 0 { "NO " } else { "yes" });
         for finding in &findings {
@@ -92,7 +92,14 @@ pub fn run(root: &Path) -> Result<bool, String> {
             );
         }
         failures += failed;
+    };
+    for (name, check) in CHECKS {
+        say(name, check(&tree));
     }
+    say(
+        "every dependency has a permissive licence and comes from the registry",
+        licences::check(root)?,
+    );
     println!(
         "    copies of the step in the command: {}",
         copies::count(root)?
