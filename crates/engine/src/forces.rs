@@ -3,7 +3,7 @@
 use crate::chunk::{CHUNK, Chunk};
 use crate::kinds::KindSet;
 use crate::lanes;
-use crate::line::Layout;
+use crate::line::{Layout, Line};
 use crate::pass::{Job, Out};
 use crate::walls::{Own, WallJob, wall_forces};
 use crate::world::{Tally, World};
@@ -78,6 +78,8 @@ where
                 viscous,
                 torque: &mut *torque,
             };
+            fetch(lines, number + 1);
+            fetch(spins, number + 1);
             lanes::run(path, &job, out);
             let own = Own::of_chunk::<D, S>(number, force.len(), lines, spins, identity);
             wall_forces::<D, S, K, W, T>(&walls, own, chunk, force, torque);
@@ -128,6 +130,14 @@ where
         }
         self.loads = loads;
     }
+}
+
+/// Reads a number of every line of a chunk, one after the other, so that the machine fetches them while the chunk before is at
+/// work: that one's neighbours, too, and what a list asks for in its own order comes one line at a time.
+fn fetch(lines: &[Line], number: usize) {
+    let from = (number * CHUNK).min(lines.len());
+    let to = (from + CHUNK).min(lines.len());
+    std::hint::black_box(lines[from..to].iter().map(|line| line.0[0]).sum::<f64>());
 }
 
 /// The grains of a chunk as loads see them.

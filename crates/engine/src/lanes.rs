@@ -3,7 +3,7 @@
 //! The force loop itself is safe, portable code in `pass`. Here it is compiled three times under
 //! different target features, and the one thing the compiler does not do well by itself, loading eight
 //! lines and transposing them in registers, is written out for AVX2 and AVX-512. All three read the
-//! same eight lanes, fold by the same tree, divide truly and never fuse, so they give the same bits
+//! same eight lanes, add in each lane in the same order, divide truly and never fuse, so they give the same bits
 //! (`tests` in this file and the whole-scene tests compare them).
 #![allow(unsafe_code)]
 #![allow(clippy::needless_range_loop)] // rows and columns of a transpose are indexed in step
@@ -12,7 +12,7 @@ use crate::kinds::KindSet;
 use crate::line::{Layout, Line};
 use crate::pass::{Job, Out, chunk_forces};
 use crate::world::Tally;
-use tsubu_model::{ContactLaw, Numbers, SpinState};
+use tsubu_model::{ContactLaw, SpinState};
 use tsubu_neighbors::LANES;
 
 /// Which vector instructions the force loop uses. All give the same bits.
@@ -75,13 +75,6 @@ pub(crate) struct Columns(pub [[f64; LANES]; 8]);
 pub(crate) trait Gather {
     /// The lines of `block`, whose indices the caller has checked against `lines`.
     fn gather(lines: &[Line], block: &[u32; LANES]) -> Columns;
-
-    /// The sum of eight lanes by the one tree that every path follows: halves, quarters, the last two.
-    #[inline(always)]
-    fn fold(l: [f64; LANES]) -> f64 {
-        let four = [l[0] + l[4], l[1] + l[5], l[2] + l[6], l[3] + l[7]];
-        (four[0] + four[2]) + (four[1] + four[3])
-    }
 }
 
 /// The force loop of a chunk on the vector path `lanes`.
@@ -101,7 +94,20 @@ where
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Lanes::Avx2 if lanes.is_here() => unsafe { x86::run_avx2(job, out) },
-        _ => chunk_forces::<D, S, K, L, T, Plain, 8>(job, out),
+        _ => chunk_forces::<D, S, K, L, T, Plain>(job, out),
+    }
+}
+
+/// Asks for the lines of a block that will be gathered soon. It changes nothing but the time.
+#[inline(always)]
+pub(crate) fn soon(lines: &[Line], block: &[u32; LANES]) {
+    #[cfg(target_arch = "x86_64")]
+    for k in 0..LANES {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint, of every machine of this kind, about memory that is not read.
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(lines.as_ptr().wrapping_add(block[k] as usize).cast())
+        }
     }
 }
 
@@ -136,12 +142,7 @@ mod x86 {
         L: ContactLaw<D, S>,
         T: Tally,
     {
-        // A law with memory fills the registers with one block.
-        if const { <L::Memory as Numbers>::N > 0 } {
-            chunk_forces::<D, S, K, L, T, Avx512, 8>(job, out)
-        } else {
-            chunk_forces::<D, S, K, L, T, Avx512, 16>(job, out)
-        }
+        chunk_forces::<D, S, K, L, T, Avx512>(job, out)
     }
 
     /// SAFETY: the machine must have AVX2.
@@ -154,7 +155,7 @@ mod x86 {
         L: ContactLaw<D, S>,
         T: Tally,
     {
-        chunk_forces::<D, S, K, L, T, Avx2, 8>(job, out)
+        chunk_forces::<D, S, K, L, T, Avx2>(job, out)
     }
 
     /// The line of lane `k`: indices were checked against the number of lines when the list was built.
@@ -219,29 +220,6 @@ mod x86 {
                 out
             }
         }
-
-        #[inline(always)]
-        fn fold(l: [f64; LANES]) -> f64 {
-            // SAFETY: only inlined into `run_avx512`.
-            unsafe {
-                let v = _mm512_loadu_pd(l.as_ptr());
-                fold_halves(_mm512_castpd512_pd256(v), _mm512_extractf64x4_pd::<1>(v))
-            }
-        }
-    }
-
-    /// The tree of `Gather::fold` from the two halves on.
-    #[inline(always)]
-    unsafe fn fold_halves(low: __m256d, high: __m256d) -> f64 {
-        // SAFETY: only inlined under AVX2 or wider.
-        unsafe {
-            let four = _mm256_add_pd(low, high);
-            let two = _mm_add_pd(
-                _mm256_castpd256_pd128(four),
-                _mm256_extractf128_pd::<1>(four),
-            );
-            _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)))
-        }
     }
 
     struct Avx2;
@@ -275,17 +253,6 @@ mod x86 {
                     }
                 }
                 out
-            }
-        }
-
-        #[inline(always)]
-        fn fold(l: [f64; LANES]) -> f64 {
-            // SAFETY: only inlined into `run_avx2`.
-            unsafe {
-                fold_halves(
-                    _mm256_loadu_pd(l.as_ptr()),
-                    _mm256_loadu_pd(l.as_ptr().add(4)),
-                )
             }
         }
     }

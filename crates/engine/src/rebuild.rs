@@ -102,14 +102,11 @@ where
                 n as u32,
             );
             // The fenced module reads lines by these indices without looking again.
-            assert!(
-                chunk
-                    .list
-                    .blocks()
-                    .iter()
-                    .flatten()
-                    .all(|&j| j as usize <= n)
-            );
+            let list = &chunk.list;
+            let slots = list.parts().into_iter().flat_map(|(groups, _)| groups);
+            let mut slots = slots.flat_map(|group| group.slots);
+            assert!(list.blocks().iter().flatten().all(|&j| j as usize <= n));
+            assert!(slots.all(|slot| own.start + usize::from(slot) < own.end));
         };
         each_chunk(&mut self.chunks, n, work);
         self.recall_memory(&grid.order);

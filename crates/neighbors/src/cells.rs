@@ -1,9 +1,15 @@
 //! A grid of cells no narrower than the reach, and the counting sort that puts grains in its order.
+//!
+//! Cells follow each other brick by brick, not row by row: a run of grains is then a lump in space, whose neighbours fit into
+//! a near cache however wide the scene is.
 
 use std::ops::Range;
 use tsubu_model::{Dim, Domain, Vector};
 
-/// Grains sorted into cells. Cells along the first axis follow each other in memory.
+/// Cells along each edge of a brick, in the plane and in space: some five hundred grains in a dense scene.
+const EDGE: [usize; 2] = [22, 8];
+
+/// Grains sorted into cells. Cells along the first axis of a brick follow each other in memory.
 pub struct CellGrid<D: Dim> {
     low: D::V,
     per_width: D::V,
@@ -94,8 +100,17 @@ impl<D: Dim> CellGrid<D> {
         cell
     }
 
+    /// The place of a cell in the order: bricks row by row, the last of a row perhaps narrower, and the cells of a brick
+    /// row by row.
     fn index(&self, cell: [usize; 3]) -> usize {
-        (cell[2] * self.count[1] + cell[1]) * self.count[0] + cell[0]
+        let edge = EDGE[usize::from(D::V::AXES > 2)];
+        let [nx, ny, nz] = self.count;
+        let corner = cell.map(|c| c / edge * edge);
+        let size = |a: usize, n: usize| edge.min(n - corner[a]);
+        let (wide, deep, high) = (size(0, nx), size(1, ny), size(2, nz));
+        let before = nx * ny * corner[2] + high * (nx * corner[1] + deep * corner[0]);
+        let [x, y, z] = [0, 1, 2].map(|a| cell[a] - corner[a]);
+        before + (z * deep + y) * wide + x
     }
 
     /// Cells to look at along one axis around cell `c`: each once, also where the box is narrow.
@@ -119,18 +134,20 @@ impl<D: Dim> CellGrid<D> {
         let (zs, nz) = self.around(2, cell[2]);
         let (ys, ny) = self.around(1, cell[1]);
         let (xs, nx) = self.around(0, cell[0]);
-        let in_row = nx > 0 && xs[nx - 1] + 1 == xs[0] + nx;
         for &z in &zs[..nz] {
             for &y in &ys[..ny] {
-                if in_row {
-                    let first = self.index([xs[0], y, z]);
-                    visit(self.starts[first] as usize..self.starts[first + nx] as usize);
-                } else {
-                    for &x in &xs[..nx] {
-                        let c = self.index([x, y, z]);
-                        visit(self.starts[c] as usize..self.starts[c + 1] as usize);
+                // Cells of a row that follow each other are one range.
+                let mut run = 0..0;
+                for &x in &xs[..nx] {
+                    let c = self.index([x, y, z]);
+                    if run.end == c {
+                        run.end += 1;
+                    } else {
+                        visit(self.starts[run.start] as usize..self.starts[run.end] as usize);
+                        run = c..c + 1;
                     }
                 }
+                visit(self.starts[run.start] as usize..self.starts[run.end] as usize);
             }
         }
     }

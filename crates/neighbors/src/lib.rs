@@ -1,6 +1,6 @@
 //! Who may touch whom: grains sorted into cells, and full lists of the partners within reach plus a skin.
 //!
-//! A list holds each pair from both sides, padded to blocks of eight with a dummy index, so that the
+//! A list holds each pair from both sides, in blocks of eight that hold one partner each of eight grains, so that the
 //! force loop gathers, never scatters, and gives the same bits for any number of threads.
 //! The lists stay right until some grain has moved by half the skin. What contacts remember lies beside a list in the
 //! same blocks and is carried into the next one by the identity of the partner.
@@ -25,6 +25,6 @@ mod memory;
 mod reorder;
 
 pub use cells::CellGrid;
-pub use list::{ChunkList, LANES};
-pub use memory::{ChunkMemory, Kept};
+pub use list::{ChunkList, Group, LANES};
+pub use memory::{ChunkMemory, Eight, Kept};
 pub use reorder::Reorder;

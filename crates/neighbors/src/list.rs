@@ -4,22 +4,36 @@ use crate::CellGrid;
 use std::ops::Range;
 use tsubu_model::{Dim, Domain, Vector};
 
-/// Partners per block: the force loop works on eight contacts at once.
+/// Grains per group, and partners per block: the force loop works on eight contacts at once.
 pub const LANES: usize = 8;
 
-/// Partners of a run of grains, in blocks of eight. Each block belongs to one grain of the run (its
-/// slot); the blocks of a grain follow each other, and the number of blocks is even.
+/// Eight grains of a run, one in each lane, and how many blocks of partners they have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Slots of the grains; those beyond `grains` repeat the last and have no partners.
+    pub slots: [u16; LANES],
+    /// Blocks: partners of the grain that has most.
+    pub blocks: u16,
+    /// How many of the lanes have a grain.
+    pub grains: u16,
+}
+
+/// Partners of a run of grains. Grains are taken eight at a time, one in each lane of a [`Group`]; block number b of a group
+/// holds partner number b of each, so no sum over lanes is ever taken. Grains with equally many partners share a group,
+/// so that few lanes are idle.
 #[derive(Clone, Debug, Default)]
 pub struct ChunkList {
+    groups: Vec<Group>,
     blocks: Vec<[u32; LANES]>,
-    owners: Vec<u16>,
+    /// Groups and blocks before these have no pair across a periodic face.
+    inside: (usize, usize),
     entries: usize,
     dummy: u32,
 }
 
 impl ChunkList {
     /// Lists every grain within `cut` of each grain of `own` (indices in sorted order, at most 65536).
-    /// `dummy` fills the last block of a grain: the index of a grain far away from everything.
+    /// `dummy` fills the lanes of grains with fewer partners: the index of a grain far away from everything.
     pub fn build<D: Dim>(
         &mut self,
         grid: &CellGrid<D>,
@@ -29,64 +43,88 @@ impl ChunkList {
         cut: f64,
         dummy: u32,
     ) {
-        self.blocks.clear();
-        self.owners.clear();
-        self.entries = 0;
         self.dummy = dummy;
         let cut2 = cut * cut;
+        // Partners of all grains one after the other, where those of each end, and who has one across a periodic face.
+        let mut partners: Vec<u32> = Vec::with_capacity(own.len() * 10);
+        let mut ends: Vec<u32> = Vec::with_capacity(own.len());
+        let mut order: Vec<(bool, u16, u16)> = Vec::with_capacity(own.len());
         for (slot, i) in own.enumerate() {
             let x = position(i);
-            let mut block = [dummy; LANES];
-            let mut filled = 0;
+            let before = partners.len();
+            let mut across = false;
             grid.near(x, |range| {
                 for j in range {
-                    let apart = domain.nearest(x - position(j));
-                    if apart.length_squared() < cut2 && j != i {
-                        block[filled] = j as u32;
-                        filled += 1;
-                        if filled == LANES {
-                            self.push(slot, block, LANES);
-                            block = [dummy; LANES];
-                            filled = 0;
-                        }
+                    let straight = x - position(j);
+                    if domain.nearest(straight).length_squared() < cut2 && j != i {
+                        partners.push(j as u32);
+                        across |= may_need_image(domain, straight, cut);
                     }
                 }
             });
-            if filled > 0 {
-                self.push(slot, block, filled);
+            ends.push(partners.len() as u32);
+            order.push((across, (partners.len() - before) as u16, slot as u16));
+        }
+        self.entries = partners.len();
+        // Most partners first inside, last across, so that where the two meet both are few; by slot where all else is equal.
+        order.sort_unstable_by_key(|&(across, count, slot)| {
+            (across, if across { count } else { u16::MAX - count }, slot)
+        });
+        self.lay(&order, &partners, &ends);
+    }
+
+    /// Puts grains in the given order into groups.
+    fn lay(&mut self, order: &[(bool, u16, u16)], partners: &[u32], ends: &[u32]) {
+        self.groups.clear();
+        self.blocks.clear();
+        self.inside = (0, 0);
+        let blocks = |eight: &[(bool, u16, u16)]| eight.iter().map(|one| one.1).max();
+        let all = order.chunks(LANES).filter_map(blocks).map(usize::from);
+        let all = all.sum::<usize>();
+        // As much as is needed, and no room for doubling; a little is kept between builds.
+        if self.blocks.capacity() > all + all / 16 + 8 {
+            self.blocks.shrink_to(all + all / 32);
+        }
+        self.blocks.reserve_exact(all);
+        self.groups.reserve_exact(order.len().div_ceil(LANES));
+        for eight in order.chunks(LANES) {
+            let rows = usize::from(blocks(eight).unwrap_or(0));
+            let last = eight[eight.len() - 1].2;
+            let mut slots = [last; LANES];
+            let first = self.blocks.len();
+            self.blocks.resize(first + rows, [self.dummy; LANES]);
+            for (lane, &(_, count, slot)) in eight.iter().enumerate() {
+                slots[lane] = slot;
+                let end = ends[usize::from(slot)] as usize;
+                let own = &partners[end - usize::from(count)..end];
+                for (block, &partner) in self.blocks[first..].iter_mut().zip(own) {
+                    block[lane] = partner;
+                }
+            }
+            self.groups.push(Group {
+                slots,
+                blocks: rows as u16,
+                grains: eight.len() as u16,
+            });
+            if eight.iter().all(|one| !one.0) {
+                self.inside = (self.groups.len(), self.blocks.len());
             }
         }
-        if self.blocks.len() % 2 == 1 {
-            self.push(
-                self.owners.last().map_or(0, |&o| o as usize),
-                [dummy; LANES],
-                0,
-            );
-        }
-        // Keep a little room for the next build, not the doubling of a growing vector.
-        if self.blocks.capacity() > self.blocks.len() + self.blocks.len() / 16 + 8 {
-            let room = self.blocks.len() + self.blocks.len() / 32;
-            self.blocks.shrink_to(room);
-            self.owners.shrink_to(room);
-        }
     }
 
-    fn push(&mut self, slot: usize, block: [u32; LANES], filled: usize) {
-        self.blocks.push(block);
-        self.owners.push(slot as u16);
-        self.entries += filled;
+    /// The groups in order, and the blocks of all one after the other: first those without a pair across a periodic
+    /// face, for which the nearest image of a difference is the difference itself, then the others.
+    #[inline(always)]
+    pub fn parts(&self) -> [(&[Group], &[[u32; LANES]]); 2] {
+        let (inside, across) = self.groups.split_at(self.inside.0);
+        let (of_inside, of_across) = self.blocks.split_at(self.inside.1);
+        [(inside, of_inside), (across, of_across)]
     }
 
-    /// Blocks, an even number.
+    /// All blocks.
     #[inline(always)]
     pub fn blocks(&self) -> &[[u32; LANES]] {
         &self.blocks
-    }
-
-    /// Slot of the grain that each block belongs to.
-    #[inline(always)]
-    pub fn owners(&self) -> &[u16] {
-        &self.owners
     }
 
     /// Every entry as (slot, partner), without the padding.
@@ -97,12 +135,14 @@ impl ChunkList {
     /// Every entry as (block, lane, slot, partner), without the padding.
     pub fn entries_in_blocks(&self) -> impl Iterator<Item = (usize, usize, usize, usize)> {
         let dummy = self.dummy;
-        let blocks = self.owners.iter().zip(&self.blocks).enumerate();
-        blocks.flat_map(move |(number, (&slot, block))| {
+        let groups = self.groups.iter();
+        let owners = groups.flat_map(|group| (0..group.blocks).map(move |_| group.slots));
+        let blocks = owners.zip(&self.blocks).enumerate();
+        blocks.flat_map(move |(number, (slots, block))| {
             let lanes = block.iter().enumerate();
             lanes
                 .filter(move |&(_, &j)| j != dummy)
-                .map(move |(lane, &j)| (number, lane, slot as usize, j as usize))
+                .map(move |(lane, &j)| (number, lane, usize::from(slots[lane]), j as usize))
         })
     }
 
@@ -113,8 +153,14 @@ impl ChunkList {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        2 * self.owners.capacity() + 4 * LANES * self.blocks.capacity()
+        size_of::<Group>() * self.groups.capacity() + 4 * LANES * self.blocks.capacity()
     }
+}
+
+/// True if the nearest image of a difference may become another than the difference itself, before either grain has moved
+/// by half of `cut`.
+fn may_need_image<D: Dim>(domain: &Domain<D>, straight: D::V, cut: f64) -> bool {
+    (0..D::V::AXES).any(|a| straight.axis(a).abs() + cut > 0.5 * domain.period.axis(a))
 }
 
 #[cfg(test)]

@@ -2,11 +2,16 @@
 
 use crate::{ChunkList, LANES};
 
+/// One number of the eight contacts of a block, a cache line of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(64))]
+pub struct Eight(pub [f64; LANES]);
+
 /// The numbers that a law remembers of each listed contact, in blocks of eight as the list has them.
 #[derive(Clone, Debug, Default)]
 pub struct ChunkMemory {
     numbers: usize,
-    values: Vec<f64>,
+    values: Vec<Eight>,
 }
 
 impl ChunkMemory {
@@ -15,28 +20,28 @@ impl ChunkMemory {
         self.numbers = numbers;
         self.values.clear();
         self.values
-            .resize(list.blocks().len() * numbers * LANES, 0.0);
+            .resize(list.blocks().len() * numbers, Eight::default());
     }
 
-    /// Everything: number m of lane k of block b is `[(b · numbers + m) · 8 + k]`.
+    /// Everything: number m of block b is `[b · numbers + m]`.
     #[inline(always)]
-    pub fn values_mut(&mut self) -> &mut [f64] {
+    pub fn values_mut(&mut self) -> &mut [Eight] {
         &mut self.values
     }
 
     /// Number m of a lane of a block.
     pub fn get(&self, block: usize, lane: usize, m: usize) -> f64 {
-        self.values[(block * self.numbers + m) * LANES + lane]
+        self.values[block * self.numbers + m].0[lane]
     }
 
     /// Sets number m of a lane of a block.
     pub fn set(&mut self, block: usize, lane: usize, m: usize, value: f64) {
-        self.values[(block * self.numbers + m) * LANES + lane] = value;
+        self.values[block * self.numbers + m].0[lane] = value;
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        8 * self.values.capacity()
+        size_of::<Eight>() * self.values.capacity()
     }
 }
 
@@ -62,30 +67,38 @@ impl Kept {
         identity: impl Fn(usize) -> u32,
         forget: impl Fn(usize, u32) -> bool,
     ) {
-        self.numbers = memory.numbers;
+        let numbers = memory.numbers;
+        self.numbers = numbers;
+        let found = || {
+            list.entries_in_blocks()
+                .filter_map(|(block, lane, slot, j)| {
+                    let empty = (0..numbers).all(|m| memory.get(block, lane, m) == 0.0);
+                    let partner = identity(j);
+                    (!empty && !forget(slot, partner)).then_some((block, lane, slot, partner))
+                })
+        };
+        // A counting sort by slot: first how many each has, then where those of each begin.
         self.starts.clear();
-        self.partners.clear();
-        self.values.clear();
-        self.starts.push(0);
-        for (block, lane, slot, j) in list.entries_in_blocks() {
-            let numbers = 0..memory.numbers;
-            if numbers.clone().all(|m| memory.get(block, lane, m) == 0.0) {
-                continue;
-            }
-            let partner = identity(j);
-            if forget(slot, partner) {
-                continue;
-            }
-            // Blocks follow each other by slot.
-            while self.starts.len() <= slot {
-                self.starts.push(self.partners.len() as u32);
-            }
-            self.partners.push(partner);
-            self.values
-                .extend(numbers.map(|m| memory.get(block, lane, m)));
+        self.starts.resize(grains + 1, 0);
+        for (_, _, slot, _) in found() {
+            self.starts[slot + 1] += 1;
         }
-        while self.starts.len() <= grains {
-            self.starts.push(self.partners.len() as u32);
+        for slot in 0..grains {
+            self.starts[slot + 1] += self.starts[slot];
+        }
+        let all = self.starts[grains] as usize;
+        self.partners.clear();
+        self.partners.resize(all, 0);
+        self.values.clear();
+        self.values.resize(all * numbers, 0.0);
+        let mut next = self.starts.clone();
+        for (block, lane, slot, partner) in found() {
+            let at = next[slot] as usize;
+            next[slot] += 1;
+            self.partners[at] = partner;
+            for m in 0..numbers {
+                self.values[at * numbers + m] = memory.get(block, lane, m);
+            }
         }
     }
 
