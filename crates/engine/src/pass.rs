@@ -152,6 +152,15 @@ fn groups<D, S, K, L, T, G, const TABLE: bool, const IMAGES: bool>(
             for m in 0..numbers {
                 remembered[m] = out.memory[place + m].0;
             }
+            // Looked up before the loop over the lanes, which a look-up would keep from becoming vector code.
+            let pairs = if TABLE {
+                std::array::from_fn(|k| {
+                    let (of_own, of_other) = (own[D::KIND][k], other[D::KIND][k]);
+                    job.pairs[of_own as usize * job.kinds + of_other as usize]
+                })
+            } else {
+                [only; LANES]
+            };
             for k in 0..LANES {
                 let straight =
                     D::V::from_axes(|a| own[D::POSITION + a][k] - other[D::POSITION + a][k]);
@@ -174,11 +183,7 @@ fn groups<D, S, K, L, T, G, const TABLE: bool, const IMAGES: bool>(
                     ),
                     roll: S::Turn::<D>::from_axes(|a| own_spin[a][k] - other_spin[a][k]),
                 };
-                let pair = if TABLE {
-                    job.pairs[own[D::KIND][k] as usize * job.kinds + other[D::KIND][k] as usize]
-                } else {
-                    only
-                };
+                let pair = pairs[if TABLE { k } else { 0 }];
                 let mut memory = remember::<L::Memory>(&remembered, k);
                 let push = L::force(&pair, &touch, &mut memory, job.dt);
                 keep(&mut remembered, k, &memory);
