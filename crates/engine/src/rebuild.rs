@@ -111,7 +111,7 @@ where
         each_chunk(&mut self.chunks, n, work);
         self.recall_memory(&grid.order);
         self.note_near_bodies();
-        self.build_scratch = grid.bytes() + grid.bytes() / 2 + reorder.bytes();
+        self.build_scratch = grid.bytes() + reorder.bytes();
         self.moved = 0.0;
         self.built_at = self.steps;
         self.builds += 1;

@@ -73,16 +73,17 @@ impl<D: Dim> CellGrid<D> {
             order: vec![0; n],
         };
         let cells = count.iter().product::<usize>();
-        let mut starts = vec![0u32; cells + 1];
+        // Counted two places on, a sum gives where each cell begins one place on, and filling the cells moves that to where it
+        // ends, which is where the next begins: no second copy is needed.
+        let mut starts = vec![0u32; cells + 2];
         for i in 0..n {
-            starts[grid.index(grid.cell(position(i))) + 1] += 1;
+            starts[grid.index(grid.cell(position(i))) + 2] += 1;
         }
-        for c in 0..cells {
+        for c in 1..=cells {
             starts[c + 1] += starts[c];
         }
-        let mut next = starts.clone();
         for i in 0..n {
-            let slot = &mut next[grid.index(grid.cell(position(i)))];
+            let slot = &mut starts[grid.index(grid.cell(position(i))) + 1];
             grid.order[*slot as usize] = i as u32;
             *slot += 1;
         }
@@ -90,7 +91,8 @@ impl<D: Dim> CellGrid<D> {
         grid
     }
 
-    fn cell(&self, x: D::V) -> [usize; 3] {
+    /// The cell in which a point lies.
+    pub(crate) fn cell(&self, x: D::V) -> [usize; 3] {
         let mut cell = [0; 3];
         for (a, c) in cell.iter_mut().enumerate().take(D::V::AXES) {
             // Saturating: NaN and negative rounding give cell 0.
@@ -103,14 +105,48 @@ impl<D: Dim> CellGrid<D> {
     /// The place of a cell in the order: bricks row by row, the last of a row perhaps narrower, and the cells of a brick
     /// row by row.
     fn index(&self, cell: [usize; 3]) -> usize {
-        let edge = EDGE[usize::from(D::V::AXES > 2)];
-        let [nx, ny, nz] = self.count;
-        let corner = cell.map(|c| c / edge * edge);
-        let size = |a: usize, n: usize| edge.min(n - corner[a]);
-        let (wide, deep, high) = (size(0, nx), size(1, ny), size(2, nz));
+        let [nx, ny, _] = self.count;
+        let (corner, [wide, deep, high]) = self.brick(cell);
         let before = nx * ny * corner[2] + high * (nx * corner[1] + deep * corner[0]);
         let [x, y, z] = [0, 1, 2].map(|a| cell[a] - corner[a]);
         before + (z * deep + y) * wide + x
+    }
+
+    /// First cell and size of the brick of a cell.
+    pub(crate) fn brick(&self, cell: [usize; 3]) -> ([usize; 3], [usize; 3]) {
+        let edge = EDGE[usize::from(D::V::AXES > 2)];
+        let corner = cell.map(|c| c / edge * edge);
+        (
+            corner,
+            [0, 1, 2].map(|a| edge.min(self.count[a] - corner[a])),
+        )
+    }
+
+    /// True if cells are so many on every periodic axis that none is met twice around a brick's cell, and that of two grains
+    /// that are near each other only those across a face need an image.
+    pub(crate) fn is_wide(&self) -> bool {
+        (0..3).all(|a| !self.periodic[a] || self.count[a] >= 5)
+    }
+
+    /// The cell at place `c` of an axis, one before the first and one after the last allowed, and by how many periods its
+    /// grains have to be shifted to lie there; none where the scene ends.
+    pub(crate) fn around_brick(&self, axis: usize, c: usize) -> Option<(usize, f64)> {
+        let n = self.count[axis];
+        if c < n {
+            Some((c, 0.0))
+        } else if !self.periodic[axis] {
+            None
+        } else if c == n {
+            Some((0, 1.0))
+        } else {
+            Some((n - 1, -1.0))
+        }
+    }
+
+    /// The sorted grains of a cell.
+    pub(crate) fn grains_of(&self, cell: [usize; 3]) -> Range<usize> {
+        let c = self.index(cell);
+        self.starts[c] as usize..self.starts[c + 1] as usize
     }
 
     /// Cells to look at along one axis around cell `c`: each once, also where the box is narrow.

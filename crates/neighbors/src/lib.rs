@@ -20,6 +20,7 @@
 //! ```
 
 mod cells;
+mod halo;
 mod list;
 mod memory;
 mod reorder;

@@ -1,6 +1,7 @@
 //! The padded full list of one chunk of grains.
 
 use crate::CellGrid;
+use crate::halo::Halo;
 use std::ops::Range;
 use tsubu_model::{Dim, Domain, Vector};
 
@@ -49,19 +50,27 @@ impl ChunkList {
         let mut partners: Vec<u32> = Vec::with_capacity(own.len() * 10);
         let mut ends: Vec<u32> = Vec::with_capacity(own.len());
         let mut order: Vec<(bool, u16, u16)> = Vec::with_capacity(own.len());
+        let wide = grid.is_wide();
+        let mut halo = Halo::new();
         for (slot, i) in own.enumerate() {
             let x = position(i);
             let before = partners.len();
             let mut across = false;
-            grid.near(x, |range| {
-                for j in range {
-                    let straight = x - position(j);
-                    if domain.nearest(straight).length_squared() < cut2 && j != i {
-                        partners.push(j as u32);
-                        across |= may_need_image(domain, straight, cut);
+            if wide {
+                let cell = grid.cell(x);
+                halo.take(grid, domain, cell, &position);
+                across = halo.partners::<D>((i, cell, x), cut2, &mut partners);
+            } else {
+                grid.near(x, |range| {
+                    for j in range {
+                        let straight = x - position(j);
+                        if domain.nearest(straight).length_squared() < cut2 && j != i {
+                            partners.push(j as u32);
+                            across |= may_need_image(domain, straight, cut);
+                        }
                     }
-                }
-            });
+                });
+            }
             ends.push(partners.len() as u32);
             order.push((across, (partners.len() - before) as u16, slot as u16));
         }
