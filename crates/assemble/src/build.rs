@@ -2,7 +2,7 @@
 
 use crate::constants::{Constants, Law};
 use crate::flow::{InletGate, OutletGate};
-use crate::gate::WallChanges;
+use crate::gate::{WallChanges, at_release, removed_at};
 use crate::in_box::bodies_stay;
 use crate::observers::observers_of;
 use crate::plan::Plan;
@@ -298,6 +298,8 @@ impl<D: Layout + Slices> Parts<'_, D> {
             refuse_unstable: !self.allow_unstable,
             used: None,
             law_after,
+            at_release: at_release(scene),
+            removed_at: removed_at(scene),
             world,
         })
     }

@@ -37,6 +37,26 @@ impl WallChanges {
     }
 }
 
+/// What changes once the grains are still.
+pub(crate) fn at_release(scene: &Scene) -> Vec<Change> {
+    let gates = WallChanges::of(scene);
+    let removed = (0..gates.when.len()).filter(|&k| gates.when[k] == Removal::WhenStill);
+    let started = (0..gates.starts.len()).filter(|&k| gates.starts[k]);
+    let removed = removed.map(Change::RemoveBody);
+    removed.chain(started.map(Change::StartBody)).collect()
+}
+
+/// Walls that go at a time in s.
+pub(crate) fn removed_at(scene: &Scene) -> Vec<(usize, f64)> {
+    let walls = scene.walls.iter().enumerate();
+    walls
+        .filter_map(|(k, wall)| match wall.removed {
+            Removal::At(time) => Some((k, time)),
+            _ => None,
+        })
+        .collect()
+}
+
 /// Kinetic energy per grain over m g d.
 pub(crate) fn agitation<D: Dim, S: SpinState>(view: &dyn View<D, S>) -> f64 {
     let g = view.gravity().length();

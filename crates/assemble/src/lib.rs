@@ -43,9 +43,11 @@ mod simulation;
 mod springs;
 mod start;
 mod surfaces;
+mod wall_grains;
 mod water;
 
 pub use build::{Built, Choices, Hearer, Watch, build, threads_that_pay};
 pub use constants::{Constants, Law};
 pub use plan::{LimitLine, Plan};
-pub use simulation::{Count, Grain, Machine, Simulation, Snapshot, Stop};
+pub use simulation::{Count, Grain, Machine, Moment, Simulation, Snapshot, Stop};
+pub use wall_grains::wall_grains;

@@ -16,6 +16,17 @@ use tsubu_scene::End;
 /// Steps between two looks for deep overlaps, and one at the end: fixed, so that the cadence of outputs decides nothing.
 const DEPTH_EVERY: u64 = 1000;
 
+/// A moment of the same scene that another engine computed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Steps since the start.
+    pub steps: u64,
+    /// The step at which the grains were still, once it is past.
+    pub released: Option<u64>,
+    /// Identity, place in m and velocity in m/s of every grain that is there.
+    pub grains: Vec<(u32, DVec3, DVec3)>,
+}
+
 /// Why a run goes no further.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stop {
@@ -138,6 +149,9 @@ pub trait Simulation: Saved + Send {
     fn count(&self) -> Count;
     /// Kinetic energy per grain over m g d.
     fn agitation(&self) -> f64;
+    /// Puts a moment that another engine computed in the place of the present one, for the observers to look at. Moments
+    /// come in order of time; walls go and bodies start as the scene says. A run cannot go on from it.
+    fn show(&mut self, moment: &Moment);
     /// Observers look: one row of readings, always the same names.
     fn look(&mut self) -> Vec<Reading>;
     /// What the observers say at the end.
@@ -206,6 +220,10 @@ pub(crate) struct Running<
     pub watches_energy: bool,
     /// The energy at the start, once it was looked at.
     pub books: Option<Books>,
+    /// What changes at the release.
+    pub at_release: Vec<Change>,
+    /// Bodies that go at a time in s.
+    pub removed_at: Vec<(usize, f64)>,
     /// The law from the release on, if another one holds while the grains settle.
     pub law_after: Option<L>,
 }
@@ -479,6 +497,37 @@ where
 
     fn agitation(&self) -> f64 {
         agitation(&self.world as &dyn View<D, S>)
+    }
+
+    fn show(&mut self, moment: &Moment) {
+        let grains: Vec<_> = moment
+            .grains
+            .iter()
+            .map(|&(identity, x, v)| (identity, D::from_space(x), D::from_space(v)))
+            .collect();
+        let now = moment.steps;
+        let waits = self.release.filter(|release| release.at_step.is_none());
+        if let (Some(release), Some(at)) = (waits, moment.released.filter(|at| *at <= now)) {
+            // What happens at the release is told its own time.
+            self.world.replace(at, &grains);
+            let changes = self.at_release.clone();
+            self.world.apply(&changes);
+            self.release = Some(Release {
+                at_step: Some(at),
+                ..release
+            });
+            if let Some(law) = self.law_after.take() {
+                self.world.set_law(&law);
+            }
+        }
+        self.world.replace(now, &grains);
+        let due: Vec<Change> = self
+            .removed_at
+            .iter()
+            .filter(|(_, time)| *time <= self.world.now())
+            .map(|(body, _)| Change::RemoveBody(*body))
+            .collect();
+        self.world.apply(&due);
     }
 
     fn look(&mut self) -> Vec<Reading> {

@@ -71,7 +71,11 @@ impl Shaped for Space {
             thickness,
         } = &shapes.checked.scene.walls[wall].shape
         {
-            return shapes.of_grains(wall, mesh, *radius, *thin, *thickness);
+            let body = shapes.of_grains(wall, mesh, *radius, *thin, *thickness)?;
+            return Ok(Made {
+                wall_grains: Some(body.count()),
+                surface: Arc::new(body),
+            });
         }
         shapes.in_space(wall).map(Made::from)
     }
@@ -191,14 +195,14 @@ impl Shapes<'_> {
     }
 
     /// A body built of grains: the mesh filled with grains that are driven with it.
-    fn of_grains(
+    pub(crate) fn of_grains(
         &self,
         wall: usize,
         file: &MeshFile,
         radius: f64,
         thin: Thin,
         thickness: Option<f64>,
-    ) -> Result<Made<Space>, SceneError> {
+    ) -> Result<GrainBody, SceneError> {
         let field = "shape.surface.radius";
         let most = LARGEST_WALL_GRAIN * 0.5 * self.diameter;
         if radius > most {
@@ -220,7 +224,7 @@ impl Shapes<'_> {
             most_bytes: MOST_BYTES,
             ..GrainBodyOptions::new(radius, BAND * self.diameter)
         };
-        let body = GrainBody::build(&mesh, &options).map_err(|error| {
+        GrainBody::build(&mesh, &options).map_err(|error| {
             let (field, remedy) = match &error {
                 GrainBodyError::Mesh(_) => ("shape.file", look),
                 GrainBodyError::NoGrain { .. } => (
@@ -230,10 +234,6 @@ impl Shapes<'_> {
                 _ => (field, format!("write a larger radius; {look}")),
             };
             self.trouble(wall, field, error.to_string(), remedy)
-        })?;
-        Ok(Made {
-            wall_grains: Some(body.count()),
-            surface: Arc::new(body),
         })
     }
 

@@ -5,10 +5,11 @@
 //!
 //! Read in this order: `line` (what the force loop reads of a grain), `pass` (the force loop),
 //! `lanes` (the fenced vector module), `walls`, `near`, `forces`, `kick`, `turning`, `world` (one step), `sweeps`,
-//! `rebuild`, `changes`, `pairs`, `look`, `modes`, `saved`.
+//! `rebuild`, `changes`, `elsewhere`, `pairs`, `look`, `modes`, `saved`.
 
 mod changes;
 mod chunk;
+mod elsewhere;
 mod forces;
 mod health;
 mod kick;

@@ -1,7 +1,7 @@
 //! The command line.
 
 use crate::seeds::Seeds;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
 use tsubu::engine::Lanes;
@@ -44,6 +44,16 @@ pub enum Command {
     /// Look at an STL or OBJ file: what is wrong with it, what a scene can make of it, which cell suits it
     #[command(after_help = "Example:  tsubu mesh scenarios/meshes/screw.stl")]
     Mesh(MeshWish),
+    /// Write a scene as a deck of another engine: for a cluster, or for a second opinion
+    #[command(
+        after_help = "Example:  tsubu export lammps benches/scenes/repulsion.ron --out deck\n\nWhat the engine cannot say is refused at its field (exit code 2), never dropped."
+    )]
+    Export(ExportWish),
+    /// Measure, draw and film the frames of another engine's text dump as if the scene had run here
+    #[command(
+        after_help = "Example:  tsubu import deck/frames.dump --scene benches/scenes/repulsion.ron --out out/from_lammps"
+    )]
+    Import(ImportWish),
     /// List the shipped scenes
     Scenes,
     /// Copy a shipped scene here, to edit
@@ -148,6 +158,54 @@ pub struct ResumeWish {
     /// Checkpoints.
     #[command(flatten)]
     pub keep: KeepWish,
+}
+
+/// `tsubu export`.
+#[derive(Debug, Args)]
+pub struct ExportWish {
+    /// For which engine
+    #[arg(value_enum)]
+    pub target: TargetWish,
+    /// Which scene.
+    #[command(flatten)]
+    pub scene: SceneWish,
+    /// Folder for the deck [default: out/<scene>-<engine>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Overwrite an earlier deck in that folder
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// An engine that a scene can be written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TargetWish {
+    /// Any number of processes; law Repulsion with bodies of grains, law SpringDashpot with planes
+    Lammps,
+    /// Any number of processes; law SpringDashpot with STL meshes that move
+    Liggghts,
+}
+
+/// `tsubu import`.
+#[derive(Debug, Args)]
+pub struct ImportWish {
+    /// The dump: text with id, x, y, z and, for all that moves, vx, vy, vz
+    pub dump: PathBuf,
+    /// The scene that was exported
+    #[arg(long, value_name = "SCENE")]
+    pub scene: PathBuf,
+    /// Change a field of the scene, as it was changed for the export; may be given many times
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Step at which the grains were still [default: read from released.txt beside the dump]
+    #[arg(long, value_name = "STEP")]
+    pub released: Option<u64>,
+    /// Folder for the results [default: out/<scene>, or the next free out/<scene>-2]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Overwrite an earlier run in that folder
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// `tsubu check`.

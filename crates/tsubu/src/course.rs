@@ -270,6 +270,7 @@ impl<'a> Course<'a> {
     fn summarise(&self, ended: &str) -> Result<Summary, Trouble> {
         let (folder, scene) = (self.place.folder, &self.checked.scene);
         let (run, rows) = (&*self.run, self.outputs.rows());
-        ending::summary(folder, scene, &self.plan, run, rows, self.spent(), ended)
+        let spent = Some(self.spent());
+        ending::summary(folder, scene, &self.plan, run, rows, spent, ended)
     }
 }

@@ -18,14 +18,28 @@ pub struct Pictures {
     pub figures: Vec<PathBuf>,
 }
 
-/// Writes `summary.json`, and returns it.
+impl Pictures {
+    /// The animation and the first figure, a line each.
+    pub fn listed(&self) -> String {
+        let mut text = String::new();
+        if let Some(film) = &self.film {
+            text += &format!("\n  animation  {}", film.display());
+        }
+        if let Some(figure) = self.figures.first() {
+            text += &format!("\n  figure     {}", figure.display());
+        }
+        text
+    }
+}
+
+/// Writes `summary.json`, and returns it. What was not stepped here has spent no time.
 pub fn summary(
     folder: &RunFolder,
     scene: &Scene,
     plan: &Plan,
     run: &dyn Simulation,
     rows: &Rows,
-    spent: Spent,
+    spent: Option<Spent>,
     ended: &str,
 ) -> Result<Summary, Trouble> {
     let mut summary = Summary::new();
@@ -51,10 +65,12 @@ pub fn summary(
     summary.plain("grains_inserted", count.inserted as f64, "");
     summary.plain("grains_deleted", count.deleted as f64, "");
     summary.plain("grains_lost", count.lost() as f64, "");
-    summary.plain("grain_steps_per_second", spent.rate(run), "1/s");
+    if let Some(spent) = spent {
+        summary.plain("grain_steps_per_second", spent.rate(run), "1/s");
+        summary.plain("wall_time", spent.wall.as_secs_f64(), "s");
+    }
     summary.plain("bytes_per_grain", run.bytes_per_grain(), "B");
     summary.plain("threads", plan.threads as f64, "");
-    summary.plain("wall_time", spent.wall.as_secs_f64(), "s");
     summary.text("lanes", plan.lanes);
     summary.text("integrator", plan.constants.scheme.name());
     if plan.constants.scheme.sweeps() > 0 {
@@ -85,12 +101,7 @@ pub fn words(
         if threads == 1.0 { "" } else { "s" },
         folder.display()
     );
-    if let Some(film) = &pictures.film {
-        text += &format!("\n  animation  {}", film.display());
-    }
-    if let Some(figure) = pictures.figures.first() {
-        text += &format!("\n  figure     {}", figure.display());
-    }
+    text += &pictures.listed();
     let next = if summary.value("transport").is_some() {
         "water.shields=0.2".to_owned()
     } else {

@@ -31,6 +31,9 @@
 //! # Ok::<(), tsubu::scene::SceneError>(())
 //! ```
 
+pub mod dump;
+pub mod export;
+
 pub use tsubu_assemble as assemble;
 pub use tsubu_coarsen as coarsen;
 pub use tsubu_contact as contact;

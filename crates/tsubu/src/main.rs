@@ -7,8 +7,10 @@ mod check;
 mod clock;
 mod course;
 mod ending;
+mod exporting;
 mod figures;
 mod film;
+mod importing;
 mod keep;
 mod mesh;
 mod outputs;
@@ -40,6 +42,8 @@ fn main() -> ExitCode {
         arguments::Command::Check(wish) => check::check(&wish),
         arguments::Command::Tune(wish) => tune::tune(&wish),
         arguments::Command::Mesh(wish) => mesh::mesh(&wish),
+        arguments::Command::Export(wish) => exporting::export(&wish),
+        arguments::Command::Import(wish) => importing::import(&wish),
         arguments::Command::Scenes => shipped::list(),
         arguments::Command::Init { name } => shipped::init(&name),
     };

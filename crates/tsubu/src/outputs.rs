@@ -118,6 +118,12 @@ impl Outputs {
         Ok(())
     }
 
+    /// A row and a frame, whatever the step: of a moment that another engine computed.
+    pub fn moment(&mut self, run: &mut dyn Simulation) -> Result<(), Trouble> {
+        self.rows.add(run)?;
+        self.shoot(run)
+    }
+
     fn shoot(&mut self, run: &dyn Simulation) -> Result<(), Trouble> {
         if self.frames.is_none() && self.film.is_none() {
             return Ok(());
