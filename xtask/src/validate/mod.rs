@@ -6,6 +6,7 @@ mod bedload;
 mod check;
 mod coarsen;
 pub mod collision;
+mod cross;
 mod hertz;
 pub mod kept;
 pub mod lab;
@@ -90,8 +91,17 @@ const SUITES: &[Suite] = &[
         speed: SINGLE_CONTACTS,
         run: hertz::run,
     },
+    Suite {
+        name: "cross",
+        about: "the same scenes in LAMMPS and LIGGGHTS: forces, collisions, settling, pressure, a screw",
+        full_grain_steps: cross::FULL_GRAIN_STEPS,
+        speed: OTHER_ENGINES,
+        run: cross::run,
+    },
 ];
 
+/// What other engines reach.
+const OTHER_ENGINES: f64 = 3.0e6;
 /// Many suites step a handful of grains at a time, where the cost is that of the step and not of the grain.
 const FEW_GRAINS: f64 = 1.5e7;
 /// One or two grains that turn, looked at after every step.
