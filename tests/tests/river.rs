@@ -147,7 +147,7 @@ fn water_that_begins_before_there_is_a_bed_says_so() {
 #[test]
 fn a_mixture_has_its_numbers_and_its_transport_by_size() {
     let sets = [
-        "grains.sizes=[(diameter: \"0.5 mm\", share: 0.5), (diameter: \"0.25 mm\", share: 0.5)]",
+        "grains.populations=[(diameter: \"0.5 mm\", share: 0.5), (diameter: \"0.25 mm\", share: 0.5)]",
         "initial.bed.vacancies=0",
         "time.step=Exactly(\"1.5 us\")",
         "time.until=0.15 s",

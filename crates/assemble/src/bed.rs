@@ -4,7 +4,7 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 use tsubu_engine::Placed;
 use tsubu_model::{Dim, Domain, Vector, uniform};
-use tsubu_scene::{Bed, Size};
+use tsubu_scene::{Bed, Population};
 
 /// Where what a seed gives is used; events of one identity differ.
 const HEIGHT: u64 = 0;
@@ -12,16 +12,16 @@ const VACANT: u64 = 2;
 const JITTER: u64 = 3;
 const SIZE: u64 = 6;
 
-/// Grains of a bed, the fixed ones last: they are of the last kind, the others of the kinds of `sizes` in their order, or
+/// Grains of a bed, the fixed ones last: they are of the last kind, the others of the kinds of `populations` in their order, or
 /// of kind 0.
 ///
 /// The fixed row lies at z = 0 with heights of standard deviation `roughness` d. The lattice above has the distance
 /// `spacing` d and begins clear of the highest fixed grain; every site is shifted at random within its slack, so that no
-/// column stands on end. Of a mixture each site takes a size at random, in proportion to the numbers share/d³.
+/// column stands on end. Of a mixture each site takes a population at random, in proportion to the numbers share/(ρ d³).
 pub(crate) fn bed<D: Dim>(
     bed: &Bed,
     diameter: f64,
-    sizes: &[Size],
+    populations: &[Population],
     domain: &Domain<D>,
 ) -> Vec<Placed<D>> {
     let columns = |axis: usize| columns(bed, diameter, domain.period.axis(axis));
@@ -72,10 +72,10 @@ pub(crate) fn bed<D: Dim>(
             let height = top + (layer as f64 + 1.0) * bed.spacing * diameter;
             // Half of the slack each, so that two neighbours stay clear.
             let place = site(k % nx, k / nx) + DVec3::Z * height + shift * (0.5 * slack);
-            grains.push(at(place, pick(sizes, draw(SIZE))));
+            grains.push(at(place, pick(populations, draw(SIZE))));
         }
     }
-    grains.extend(row.into_iter().map(|x| at(x, sizes.len().max(1))));
+    grains.extend(row.into_iter().map(|x| at(x, populations.len().max(1))));
     grains
 }
 
@@ -92,17 +92,17 @@ pub(crate) fn sites<D: Dim>(bed: &Bed, diameter: f64, domain: &Domain<D>) -> f64
     (0..level).map(columns).product::<f64>() * (bed.layers as f64 + 1.0)
 }
 
-/// A size by a number in [0, 1).
-fn pick(sizes: &[Size], draw: f64) -> usize {
-    let number = |size: &Size| size.share / size.diameter.powi(3);
-    let mut left = draw * sizes.iter().map(number).sum::<f64>();
-    for (k, size) in sizes.iter().enumerate() {
-        left -= number(size);
+/// A population by a number in [0, 1).
+fn pick(populations: &[Population], draw: f64) -> usize {
+    let number = |one: &Population| one.share / (one.density * one.diameter.powi(3));
+    let mut left = draw * populations.iter().map(number).sum::<f64>();
+    for (k, one) in populations.iter().enumerate() {
+        left -= number(one);
         if left < 0.0 {
             return k;
         }
     }
-    sizes.len().saturating_sub(1)
+    populations.len().saturating_sub(1)
 }
 
 /// A normal deviate of mean 0 and variance 1, cut at three: a fixed grain further up would stand alone.

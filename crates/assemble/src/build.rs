@@ -1,26 +1,22 @@
 //! Where the run-time choices become types: dimension, damping, tally.
 
-use crate::constants::{Constants, Law};
+use crate::constants::Constants;
 use crate::flow::{InletGate, OutletGate};
 use crate::gate::{WallChanges, at_release, removed_at};
 use crate::in_box::bodies_stay;
 use crate::observers::observers_of;
 use crate::plan::Plan;
 use crate::simulation::{Release, Running, Simulation};
-use crate::springs;
 use crate::start;
 use crate::surfaces::{Shaped, Shapes};
 use crate::water::Flow;
 use std::path::PathBuf;
 use std::sync::Arc;
-use tsubu_engine::{
-    Body, KindSet, Lanes, Layout, ManyKinds, NoTally, OneKind, Placed, Setup, Tally, TouchesAt,
-    WithTally, World,
-};
+use tsubu_engine::{Body, KindSet, Lanes, Layout, Placed, Setup, Tally, TouchesAt, World};
 use tsubu_measure::Slices;
 use tsubu_model::{
-    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, SpinState, Spins,
-    Still, Surface, Turn,
+    ContactLaw, Course, Dim, Domain, Gate, Motion, Plane, Shift, Space, Span, SpinState, Surface,
+    Turn,
 };
 use tsubu_scene as scene;
 use tsubu_scene::{Axis, Checked, Removal, SceneError};
@@ -132,49 +128,14 @@ fn in_dimension<D: Shaped + Slices>(
         lanes,
         pool,
     };
-    let energies = checked.scene.output.energies;
     let share = checked.scene.still.map_or(1.0, |s| s.damping);
-    let kind = constants.kind;
-    let simulation: Box<dyn Simulation> = match &constants.law {
-        Law::Repulsion {
-            law,
-            isotropic,
-            walls,
-        } => {
-            let (law, walls, kinds) = (*law, walls.clone(), OneKind([kind]));
-            let settling = law.softened(1.0, share, share);
-            let (sided, settling_sided) = (law.per_direction(), settling.per_direction());
-            match (isotropic, energies) {
-                (true, false) => parts.run::<Still, _, _, _, NoTally>(kinds, law, settling, walls),
-                (true, true) => parts.run::<Still, _, _, _, WithTally>(kinds, law, settling, walls),
-                (false, false) => {
-                    parts.run::<Still, _, _, _, NoTally>(kinds, sided, settling_sided, walls)
-                }
-                (false, true) => {
-                    parts.run::<Still, _, _, _, WithTally>(kinds, sided, settling_sided, walls)
-                }
-            }
-        }
-        Law::SpringDashpot { law, walls } => {
-            let settling = springs::settling(law, share);
-            let walls = walls.clone();
-            match constants.fixed {
-                None => {
-                    parts.run::<Spins, _, _, _, NoTally>(OneKind([kind]), *law, settling, walls)
-                }
-                Some(fixed) => {
-                    // The order that `bed` counts on: sizes, or the one kind, and the fixed row last.
-                    let mut kinds = constants.sizes.clone();
-                    if kinds.is_empty() {
-                        kinds.push(kind);
-                    }
-                    kinds.push(fixed);
-                    let kinds = ManyKinds(kinds);
-                    parts.run::<Spins, _, _, _, NoTally>(kinds, *law, settling, walls)
-                }
-            }
-        }
-    };
+    // The order that `start` and `bed` count on: populations, or the one kind, and the fixed row last.
+    let mut kinds = constants.populations.clone();
+    if kinds.is_empty() {
+        kinds.push(constants.kind);
+    }
+    kinds.extend(constants.fixed);
+    let simulation = constants.law.run(parts, kinds, share);
     plan.weigh(&*simulation);
     if !choices.allow_unstable {
         plan.refuse_unstable(checked, &*simulation)?;
@@ -183,7 +144,7 @@ fn in_dimension<D: Shaped + Slices>(
 }
 
 /// Everything but the law and the tally.
-struct Parts<'a, D: Layout> {
+pub(crate) struct Parts<'a, D: Layout> {
     checked: &'a Checked,
     constants: &'a Constants,
     water: Option<Flow>,
@@ -198,8 +159,19 @@ struct Parts<'a, D: Layout> {
 }
 
 impl<D: Layout + Slices> Parts<'_, D> {
+    /// True if the scene asks for energies.
+    pub fn wants_energies(&self) -> bool {
+        self.checked.scene.output.energies
+    }
+
     /// `settling` is the law until the release, `law` from then on; without a release `law` throughout.
-    fn run<S, K, L, W, T>(self, kinds: K, law: L, settling: L, walls: Vec<W>) -> Box<dyn Simulation>
+    pub fn run<S, K, L, W, T>(
+        self,
+        kinds: K,
+        law: L,
+        settling: L,
+        walls: Vec<W>,
+    ) -> Box<dyn Simulation>
     where
         S: SpinState,
         K: KindSet,
@@ -281,11 +253,7 @@ impl<D: Layout + Slices> Parts<'_, D> {
             end: scene.time.end,
             release,
             trouble: None,
-            // A soft bed is pressed deep by its own weight; past its centre no law pushes a grain back.
-            deep: match self.constants.law {
-                Law::Repulsion { .. } => 0.3,
-                Law::SpringDashpot { .. } => 0.9,
-            },
+            deep: self.constants.law.deep(),
             watches_energy,
             books: None,
             lost_bed: water,

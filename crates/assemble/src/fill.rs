@@ -17,35 +17,38 @@ pub(crate) struct Box3 {
     pub max: DVec3,
 }
 
-/// Places for `count` grains of this diameter where `free` allows it, none overlapping another or sticking
-/// out of the box (periodic axes have no side to stick out of). `Err` says how many fitted.
+/// What says whether a grain of a diameter may be at a place, as far as others are not concerned.
+pub(crate) type Free<'f, D> = dyn FnMut(<D as Dim>::V, f64) -> bool + 'f;
+
+/// Places for grains of these diameters where `free` allows it, none overlapping another or sticking
+/// out of the box (periodic axes have no side to stick out of). `Err` says how many fitted. The largest had better come first.
 ///
 /// A grain for which random places fail waits until those that are placed have sunk: each in turn moves at random, never
 /// up, where it overlaps none. Random addition alone jams at a solid fraction of 0.38, and earlier between walls; sunk
 /// grains leave room above them.
 pub(crate) fn fill<D: Dim>(
     region: &Box3,
-    count: usize,
-    diameter: f64,
+    diameters: &[f64],
     domain: &Domain<D>,
     seed: u64,
-    free: &mut dyn FnMut(D::V) -> bool,
+    free: &mut Free<'_, D>,
 ) -> Result<Vec<D::V>, usize> {
-    let mut room = Room::new(region, diameter, domain).ok_or(0usize)?;
+    let mut room = Room::new(region, diameters, domain).ok_or(0usize)?;
     let draw = |grain: usize, event: u64| {
         move |a: usize| uniform(seed, grain as u64, 3 * event + a as u64)
     };
     let mut sinks = 0;
-    for grain in 0..count {
+    for (grain, &diameter) in diameters.iter().enumerate() {
         loop {
             // Each round of sinking has its own draws.
             let first = sinks * TRIES;
             let spot = (first..first + TRIES)
-                .map(|event| room.at(draw(grain, event)))
+                .map(|event| room.at(diameter, draw(grain, event)))
                 // The surfaces are asked last: they cost most.
-                .find(|&x| room.is_free(x, usize::MAX) && free(x));
+                .find(|&x| room.is_free(x, grain) && free(x, diameter));
             if let Some(x) = spot {
-                room.put(x);
+                room.placed.push(x);
+                room.enter(grain);
                 break;
             }
             if sinks >= MOST_SINKS || grain == 0 {
@@ -64,23 +67,26 @@ pub(crate) fn fill<D: Dim>(
 
 /// The box, the grains that are placed, and which cell each is in.
 struct Room<'a, D: Dim> {
-    low: D::V,
-    size: D::V,
-    diameter: f64,
+    min: D::V,
+    max: D::V,
+    diameters: &'a [f64],
     domain: &'a Domain<D>,
     /// Axes that are periodic over the whole box.
     full: [bool; 3],
+    /// Cells at least as wide as the largest grain: partners are one cell away at most.
     cells: [usize; 3],
-    grid: Vec<u32>,
+    /// First grain of each cell, and the next one in the cell of each grain.
+    first: Vec<u32>,
+    next: Vec<u32>,
     placed: Vec<D::V>,
 }
 
-/// No grain in this cell.
-const EMPTY: u32 = u32::MAX;
+/// No further grain in this cell.
+const NONE: u32 = u32::MAX;
 
 impl<'a, D: Dim> Room<'a, D> {
-    /// `None` if no grain fits between the sides.
-    fn new(region: &Box3, diameter: f64, domain: &'a Domain<D>) -> Option<Self> {
+    /// `None` if a grain does not fit between the sides.
+    fn new(region: &Box3, diameters: &'a [f64], domain: &'a Domain<D>) -> Option<Self> {
         let axes = D::V::AXES;
         let (min, max) = (D::from_space(region.min), D::from_space(region.max));
         let full = |a: usize| {
@@ -88,59 +94,56 @@ impl<'a, D: Dim> Room<'a, D> {
                 && domain.is_periodic(a)
                 && max.axis(a) - min.axis(a) >= domain.period.axis(a) * (1.0 - 1e-12)
         };
-        let low = D::V::from_axes(|a| {
-            if full(a) {
-                min.axis(a)
-            } else {
-                min.axis(a) + 0.5 * diameter
-            }
-        });
-        let size = D::V::from_axes(|a| {
-            if full(a) {
-                max.axis(a) - min.axis(a)
-            } else {
-                max.axis(a) - min.axis(a) - diameter
-            }
-        });
-        if (0..axes).any(|a| size.axis(a) < 0.0) {
+        let full = [full(0), full(1), full(2)];
+        let largest = diameters.iter().copied().fold(0.0, f64::max);
+        let extent = |a: usize| max.axis(a) - min.axis(a);
+        if (0..axes).any(|a| !full[a] && extent(a) < largest) {
             return None;
         }
-        // Cells of d/√axes hold at most one centre; partners are at most two cells away (three to be safe in space).
-        let cell = diameter / (axes as f64).sqrt();
         let count_of = |a: usize| {
             if a < axes {
-                (size.axis(a) / cell).floor().max(1.0) as usize
+                (extent(a) / largest).floor().max(1.0) as usize
             } else {
                 1
             }
         };
         let cells = [count_of(0), count_of(1), count_of(2)];
         Some(Self {
-            low,
-            size,
-            diameter,
+            min,
+            max,
+            diameters,
             domain,
-            full: [full(0), full(1), full(2)],
+            full,
             cells,
-            grid: vec![EMPTY; cells.iter().product()],
-            placed: Vec::new(),
+            first: vec![NONE; cells.iter().product()],
+            next: vec![NONE; diameters.len()],
+            placed: Vec::with_capacity(diameters.len()),
         })
     }
 
+    /// Where centres of grains of this diameter begin along an axis, and how far they go.
+    fn span(&self, diameter: f64, a: usize) -> (f64, f64) {
+        let (min, max) = (self.min.axis(a), self.max.axis(a));
+        if self.full[a] {
+            (min, max - min)
+        } else {
+            (min + 0.5 * diameter, max - min - diameter)
+        }
+    }
+
     /// The place of three numbers from 0 to 1.
-    fn at(&self, draw: impl Fn(usize) -> f64) -> D::V {
-        D::V::from_axes(|a| self.low.axis(a) + self.size.axis(a) * draw(a))
+    fn at(&self, diameter: f64, draw: impl Fn(usize) -> f64) -> D::V {
+        D::V::from_axes(|a| {
+            let (low, size) = self.span(diameter, a);
+            low + size * draw(a)
+        })
     }
 
     fn cell(&self, x: D::V) -> [usize; 3] {
         let mut c = [0; 3];
         for (a, c) in c.iter_mut().enumerate().take(D::V::AXES) {
-            let w = self.size.axis(a) / self.cells[a] as f64;
-            *c = if w > 0.0 {
-                (((x.axis(a) - self.low.axis(a)) / w) as usize).min(self.cells[a] - 1)
-            } else {
-                0
-            };
+            let w = (self.max.axis(a) - self.min.axis(a)) / self.cells[a] as f64;
+            *c = (((x.axis(a) - self.min.axis(a)) / w) as usize).min(self.cells[a] - 1);
         }
         c
     }
@@ -149,70 +152,89 @@ impl<'a, D: Dim> Room<'a, D> {
         (c[2] * self.cells[1] + c[1]) * self.cells[0] + c[0]
     }
 
-    /// True if a grain at `x` overlaps none but `itself`.
-    fn is_free(&self, x: D::V, itself: usize) -> bool {
-        let c = self.cell(x);
-        let other = |c: [usize; 3]| {
-            let other = self.grid[self.index(c)];
-            (other != EMPTY && other as usize != itself).then_some(other as usize)
-        };
-        let apart = |other: usize| {
-            let apart = self.domain.nearest(x - self.placed[other]);
-            apart.length_squared() >= self.diameter * self.diameter
-        };
-        other(c).is_none()
-            && around(c, self.cells, self.full, D::V::AXES).all(|n| other(n).is_none_or(apart))
+    /// The grains of a cell.
+    fn grains_in(&self, c: [usize; 3]) -> impl Iterator<Item = usize> + '_ {
+        let mut at = self.first[self.index(c)];
+        std::iter::from_fn(move || {
+            let grain = (at != NONE).then_some(at as usize)?;
+            at = self.next[grain];
+            Some(grain)
+        })
     }
 
-    fn put(&mut self, x: D::V) {
-        let at = self.index(self.cell(x));
-        self.grid[at] = self.placed.len() as u32;
-        self.placed.push(x);
+    /// True if the grain at `x` would overlap no other.
+    fn is_free(&self, x: D::V, grain: usize) -> bool {
+        let clear = |other: usize| {
+            let apart = self.domain.nearest(x - self.placed[other]);
+            let reach = 0.5 * (self.diameters[grain] + self.diameters[other]);
+            other == grain || apart.length_squared() >= reach * reach
+        };
+        around(self.cell(x), self.cells, self.full, D::V::AXES)
+            .all(|c| self.grains_in(c).all(clear))
+    }
+
+    /// Into the cell where it is.
+    fn enter(&mut self, grain: usize) {
+        let at = self.index(self.cell(self.placed[grain]));
+        self.next[grain] = self.first[at];
+        self.first[at] = grain as u32;
+    }
+
+    /// Out of the cell where it is.
+    fn leave(&mut self, grain: usize) {
+        let at = self.index(self.cell(self.placed[grain]));
+        let after = self.next[grain];
+        if self.first[at] == grain as u32 {
+            self.first[at] = after;
+            return;
+        }
+        let before = self
+            .grains_in(self.cell(self.placed[grain]))
+            .find(|&other| self.next[other] == grain as u32);
+        if let Some(before) = before {
+            self.next[before] = after;
+        }
     }
 
     /// Moves a grain at random, not up, if it has room there.
-    fn sink(
-        &mut self,
-        grain: usize,
-        draw: impl Fn(usize) -> f64,
-        free: &mut dyn FnMut(D::V) -> bool,
-    ) {
-        let old = self.placed[grain];
-        let step = SINK * self.diameter;
+    fn sink(&mut self, grain: usize, draw: impl Fn(usize) -> f64, free: &mut Free<'_, D>) {
+        let (old, diameter) = (self.placed[grain], self.diameters[grain]);
+        let step = SINK * diameter;
         let new = D::V::from_axes(|a| {
+            let (low, size) = self.span(diameter, a);
             let by = if a == D::UP {
                 -step * draw(a)
             } else {
                 step * (2.0 * draw(a) - 1.0)
             };
-            let into = old.axis(a) + by - self.low.axis(a);
-            let size = self.size.axis(a);
+            let into = old.axis(a) + by - low;
             let into = if self.full[a] {
                 into.rem_euclid(size)
             } else {
                 into
             };
-            self.low.axis(a) + into
+            low + into
         });
-        let inside = (0..D::V::AXES)
-            .all(|a| (0.0..=self.size.axis(a)).contains(&(new.axis(a) - self.low.axis(a))));
-        if inside && self.is_free(new, grain) && free(new) {
-            let (from, to) = (self.index(self.cell(old)), self.index(self.cell(new)));
-            self.grid[from] = EMPTY;
-            self.grid[to] = grain as u32;
+        let inside = (0..D::V::AXES).all(|a| {
+            let (low, size) = self.span(diameter, a);
+            (0.0..=size).contains(&(new.axis(a) - low))
+        });
+        if inside && self.is_free(new, grain) && free(new, diameter) {
+            self.leave(grain);
             self.placed[grain] = new;
+            self.enter(grain);
         }
     }
 }
 
-/// Cells within two of `c` along each axis, wrapped where the axis repeats. A cell may come twice in a narrow box.
+/// Cells next to `c` along each axis, wrapped where the axis repeats. A cell may come twice in a narrow box.
 fn around(
     c: [usize; 3],
     cells: [usize; 3],
     wrap: [bool; 3],
     axes: usize,
 ) -> impl Iterator<Item = [usize; 3]> {
-    let reach = move |a: usize| if a < axes { -3i64..=3 } else { 0..=0 };
+    let reach = move |a: usize| if a < axes { -1i64..=1 } else { 0..=0 };
     let step = move |a: usize, by: i64| -> Option<usize> {
         let n = cells[a] as i64;
         let to = c[a] as i64 + by;
@@ -254,7 +276,7 @@ mod tests {
             min: DVec3::ZERO,
             max: DVec3::new(10.0, 5.0, 12.0),
         };
-        let places = fill::<Space>(&region, 320, 1.0, &domain, 3, &mut |_| true).unwrap();
+        let places = fill::<Space>(&region, &[1.0; 320], &domain, 3, &mut |_, _| true).unwrap();
         assert!(closest::<Space>(&places, &domain) >= 1.0);
         assert!(
             places
@@ -268,7 +290,7 @@ mod tests {
         let plane = Domain::<Plane> {
             period: DVec2::INFINITY,
         };
-        let places = fill::<Plane>(&region, 60, 1.0, &plane, 3, &mut |_| true).unwrap();
+        let places = fill::<Plane>(&region, &[1.0; 60], &plane, 3, &mut |_, _| true).unwrap();
         assert!(closest::<Plane>(&places, &plane) >= 1.0);
     }
 
@@ -282,13 +304,33 @@ mod tests {
             max: DVec3::new(6.0, 6.0, 10.0),
         };
         // 0.405 of what they may fill: random addition alone jams at 0.384 even without walls.
-        let count = 270;
-        let places = fill::<Space>(&region, count, 1.0, &domain, 5, &mut |x| x.z < 9.2).unwrap();
-        assert_eq!(places.len(), count);
+        let sizes = [1.0; 270];
+        let places = fill::<Space>(&region, &sizes, &domain, 5, &mut |x, _| x.z < 9.2).unwrap();
+        assert_eq!(places.len(), sizes.len());
         assert!(closest::<Space>(&places, &domain) >= 1.0);
         assert!(places.iter().all(|p| {
             p.x >= 0.0 && p.x <= 6.0 && p.y >= 0.5 && p.y <= 5.5 && p.z >= 0.5 && p.z < 9.2
         }));
+    }
+
+    #[test]
+    fn small_grains_fill_the_room_between_large_ones() {
+        let domain = Domain::<Space> {
+            period: DVec3::new(8.0, 8.0, f64::INFINITY),
+        };
+        let region = Box3 {
+            min: DVec3::ZERO,
+            max: DVec3::splat(8.0),
+        };
+        // A solid fraction of 0.45 together, sizes 1 : 5, which neither size alone reaches here.
+        let sizes: Vec<f64> = [vec![2.0; 42], vec![0.4; 1640]].concat();
+        let places = fill::<Space>(&region, &sizes, &domain, 2, &mut |_, _| true).unwrap();
+        for (i, (&a, da)) in places.iter().zip(&sizes).enumerate() {
+            for (&b, db) in places[..i].iter().zip(&sizes) {
+                assert!(domain.nearest(a - b).length() >= 0.5 * (da + db));
+            }
+            assert!(a.z >= 0.5 * da && a.z <= 8.0 - 0.5 * da);
+        }
     }
 
     #[test]
@@ -298,14 +340,14 @@ mod tests {
             max: DVec3::splat(3.0),
         };
         let fitted =
-            fill::<Space>(&region, 500, 1.0, &Domain::open(), 1, &mut |_| true).unwrap_err();
+            fill::<Space>(&region, &[1.0; 500], &Domain::open(), 1, &mut |_, _| true).unwrap_err();
         assert!(fitted > 8 && fitted < 40, "{fitted}");
         let flat = Box3 {
             min: DVec3::ZERO,
             max: DVec3::new(3.0, 3.0, 0.5),
         };
         assert_eq!(
-            fill::<Space>(&flat, 2, 1.0, &Domain::open(), 1, &mut |_| true),
+            fill::<Space>(&flat, &[1.0; 2], &Domain::open(), 1, &mut |_, _| true),
             Err(0)
         );
     }

@@ -1,7 +1,7 @@
 //! From what a scene asks to measure to the observers of a run.
 
 use crate::constants::Constants;
-use crate::springs::{clear_water, sediment};
+use crate::grain::{clear_water, sediment};
 use crate::water::friction_velocity;
 use std::sync::Arc;
 use tsubu_measure::{
@@ -82,7 +82,12 @@ fn bed_load_of<D: Dim>(
         begins: water.begins,
         skip: wanted.skip,
         moving_speed: 0.1 * (clear.submerged_gravity(&sand).ok()? * sand.diameter).sqrt(),
-        sizes: scene.grains.sizes.iter().map(|s| s.diameter).collect(),
+        sizes: scene
+            .grains
+            .populations
+            .iter()
+            .map(|s| s.diameter)
+            .collect(),
     }))
 }
 

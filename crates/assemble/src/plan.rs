@@ -1,14 +1,13 @@
 //! What a scene models and what not, and how far its step is from each limit.
 
-use crate::constants::{Constants, Law};
+use crate::constants::Constants;
 use crate::simulation::Simulation;
 use std::f64::consts::PI;
-use tsubu_contact::{BodyLaw, BodyPair, SpringDashpot, Tension};
-use tsubu_integrate::{Limit, Packing, Scheme};
-use tsubu_model::{ContactLaw, Kind, Space, Still};
+use tsubu_integrate::Scheme;
+use tsubu_model::{Kind, Linear};
 use tsubu_scene::{
-    Axis, Begin, Checked, Course, End, Fate, Flow, Initial, MeshSurface, Motion, Scene, SceneError,
-    Shape, Turbulence,
+    Axis, Begin, Checked, Course, End, Fate, Flow, Initial, MeshSurface, Motion, PairOf,
+    Population, Scene, SceneError, Shape, Turbulence,
 };
 
 /// Name of the limit that is worked out for the very contacts of the start.
@@ -68,7 +67,7 @@ impl Plan {
         Self {
             grains,
             modelled: modelled(scene, constants),
-            not_modelled: not_modelled(scene),
+            not_modelled: constants.law.leaves_out(scene),
             limits: constants.limits(),
             packing: None,
             steps: match scene.time.end {
@@ -110,7 +109,7 @@ impl Plan {
     /// True if the limits of the constants alone say that no packing can be over its limit: those of still grains include
     /// the densest packing. Explicit Euler has no limit for a packing.
     pub(crate) fn is_bounded(&self) -> bool {
-        let still = matches!(self.constants.law, Law::Repulsion { .. });
+        let still = !self.constants.law.turns();
         let known = self.constants.scheme != Scheme::ExplicitEuler;
         !known || (still && self.limits.iter().all(LimitLine::holds))
     }
@@ -206,15 +205,16 @@ const CHOSEN_OF_PAIRS: f64 = 0.15;
 impl Constants {
     /// What the step uses of each limit that is known before there is a packing.
     pub fn limits(&self) -> Vec<LimitLine> {
-        shares(self)
+        self.law.limits(self)
     }
 
     /// Shortens the step until it uses no more of its limits than the program chooses; a scheme that bears no step keeps it,
     /// and is refused.
     pub(crate) fn shorten_step(&mut self) {
-        let most = match self.law {
-            Law::Repulsion { .. } => CHOSEN,
-            Law::SpringDashpot { .. } => CHOSEN_OF_PAIRS,
+        let most = if self.law.turns() {
+            CHOSEN_OF_PAIRS
+        } else {
+            CHOSEN
         };
         let longest = self.dt;
         let holds = |constants: &Self| constants.limits().iter().all(|l| l.used <= most);
@@ -228,67 +228,40 @@ impl Constants {
     }
 }
 
-fn shares(constants: &Constants) -> Vec<LimitLine> {
-    let limit: Limit = constants.scheme.limit();
-    let (k, c) = (constants.k(), constants.c());
-    let mut lines = vec![
-        LimitLine {
-            name: "a pair of grains".into(),
-            used: limit.used_by_packing(k, c, Packing::Pair),
-        },
-        LimitLine {
-            name: "a column of ten".into(),
-            used: limit.used_by_packing(k, c, Packing::Column(10)),
-        },
-        LimitLine {
-            name: "the densest packing, twelve contacts a grain".into(),
-            used: limit.used_by_packing(k, c, Packing::FaceCentredCubic),
-        },
-    ];
-    let Law::Repulsion { walls, .. } = &constants.law else {
-        return of_springs(constants);
-    };
-    let per_mass = constants.dt / constants.kind.mass;
-    let (mut at_walls, mut at_grains) = (None::<f64>, None::<f64>);
-    for law in walls {
-        let pair =
-            <BodyLaw as ContactLaw<Space, Still>>::pair(law, &constants.kind, &Kind::immovable());
-        match pair {
-            BodyPair::Surface(pair) => {
-                at_walls = Some(at_walls.unwrap_or(0.0).max(pair.damping * per_mass));
-            }
-            BodyPair::Grains(pair) => {
-                let k = pair.contact_stiffness() * constants.dt * per_mass;
-                let c = pair.normal_damping.max(pair.tangential_damping) * per_mass;
-                let used = limit.used_by_packing(k, c, Packing::OneWallContact);
-                at_grains = Some(at_grains.unwrap_or(0.0).max(used));
-            }
-        }
+fn line(name: &str, used: f64) -> LimitLine {
+    LimitLine {
+        name: name.into(),
+        used,
     }
-    let at_walls = at_walls.map(|c| limit.used_by_packing(k, c, Packing::OneWallContact));
-    for (name, used) in [
-        ("a grain at a wall", at_walls),
-        ("a grain at a wall grain", at_grains),
-    ] {
-        lines.extend(used.map(|used| LimitLine {
-            name: name.into(),
-            used,
-        }));
-    }
-    lines
+}
+
+/// The limit of a pair of grains.
+pub(crate) fn pair(used: f64) -> LimitLine {
+    line("a pair of grains", used)
+}
+
+/// The limit of a column of ten grains.
+pub(crate) fn column(used: f64) -> LimitLine {
+    line("a column of ten", used)
+}
+
+/// The limit of the densest packing.
+pub(crate) fn densest(used: f64) -> LimitLine {
+    line("the densest packing, twelve contacts a grain", used)
 }
 
 /// Limits of grains that turn. Rolling on each other is stiffer than pressing: a torque turns a sphere more easily than a
 /// force moves it. What the packing itself bears is worked out when it lies.
-fn of_springs(constants: &Constants) -> Vec<LimitLine> {
-    let Law::SpringDashpot { law, walls } = &constants.law else {
-        return Vec::new();
-    };
-    let (limit, kind) = (constants.scheme.limit(), constants.kind);
+pub(crate) fn of_turning(
+    constants: &Constants,
+    grains: &Linear,
+    walls: impl Iterator<Item = Linear>,
+) -> Vec<LimitLine> {
+    let (limit, kind) = (constants.scheme.limit(), constants.quickest);
     let per_mass = constants.dt / kind.mass;
     // A tangential force acts on m and, through r, on I: 1/m + r²/I.
     let turning = 1.0 + kind.mass * kind.radius * kind.radius / kind.inertia;
-    let of = |law: &SpringDashpot, factor: f64| {
+    let of = |law: &Linear, factor: f64| {
         let k = |k: f64, f: f64| f * k * constants.dt * per_mass;
         let c = |c: f64, f: f64| f * c * per_mass;
         [
@@ -302,63 +275,14 @@ fn of_springs(constants: &Constants) -> Vec<LimitLine> {
             ),
         ]
     };
-    let line = |name: &str, used: f64| LimitLine {
-        name: name.into(),
-        used,
-    };
-    let [along, across] = of(law, 2.0);
-    let mut lines = vec![
-        line("a pair of grains", along),
-        line("a pair that rolls on itself", across),
-    ];
+    let [along, across] = of(grains, 2.0);
+    let mut lines = vec![pair(along), line("a pair that rolls on itself", across)];
     let at_walls = walls
-        .iter()
-        .flat_map(|law| of(law, 1.0))
+        .flat_map(|law| of(&law, 1.0))
         .reduce(f64::max)
         .map(|used| line("a grain at a wall", used));
     lines.extend(at_walls);
     lines
-}
-
-fn law_words(constants: &Constants) -> String {
-    match &constants.law {
-        Law::Repulsion { law, isotropic, .. } => format!(
-            "law Repulsion: k = {:.4e} N/m, {}; restitution of a pair {:.3}",
-            law.stiffness(),
-            if *isotropic {
-                format!(
-                    "damping {:.4} kg/s in every direction (no projection, no root)",
-                    law.normal_damping
-                )
-            } else {
-                format!(
-                    "damping {:.4} kg/s along, {:.4} kg/s across the contact",
-                    law.normal_damping, law.tangential_damping
-                )
-            },
-            tsubu_contact::restitution::at_zero_overlap(
-                law.damping_ratio(0.5 * constants.kind.mass)
-            ),
-        ),
-        Law::SpringDashpot { law, .. } => {
-            let zeta = law.damping_ratio(0.5 * constants.kind.mass);
-            format!(
-                "law SpringDashpot: kn = {:.4e}, ks = {:.4e} N/m, damping {:.4e} and {:.4e} kg/s, friction {}; {:?}, slip {:?}, normal force {:?}; restitution of a pair {:.3}",
-                law.normal_stiffness,
-                law.tangential_stiffness,
-                law.normal_damping,
-                law.tangential_damping,
-                law.friction,
-                law.tension,
-                law.slip,
-                law.normal,
-                match law.tension {
-                    Tension::NoPull => tsubu_contact::restitution::at_zero_force(zeta),
-                    Tension::AsPrinted => tsubu_contact::restitution::at_zero_overlap(zeta),
-                }
-            )
-        }
-    }
 }
 
 fn water_words(water: &tsubu_scene::Water) -> String {
@@ -389,9 +313,9 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
         },
         format!(
             "grains: {}, d = {:.4} mm, m = {:.4e} kg{}",
-            match constants.sizes.len() {
+            match constants.populations.len() {
                 0 => "one kind".to_owned(),
-                sizes => format!("{sizes} sizes, the largest"),
+                many => format!("{many} populations, the largest"),
             },
             constants.kind.diameter() * 1e3,
             constants.kind.mass,
@@ -404,8 +328,9 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
                 String::new()
             }
         ),
-        law_words(constants),
+        constants.law.words(constants),
     ];
+    lines.extend(mixture(scene, constants));
     if scene.grains.soften > 1.0 {
         lines.push(format!(
             "softened: stiffness divided by {}",
@@ -419,20 +344,20 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
         let part = |x: Option<f64>, name: &str, none: &str| {
             x.map_or(none.to_owned(), |x| format!("{name} {x}"))
         };
-        let material = if wall.shape.wall_grains().is_some() {
-            "touched as a grain".to_owned()
-        } else if let Law::SpringDashpot { .. } = constants.law {
-            format!(
-                "{}, {}",
-                part(wall.restitution, "restitution", "the grains' damping"),
-                part(wall.friction, "friction", "the grains' friction"),
-            )
+        let [bare, smooth] = constants.law.at_bare_walls();
+        let friction = if constants.law.turns() {
+            "friction"
         } else {
-            format!(
+            "kinetic friction"
+        };
+        let material = match wall.material {
+            _ if wall.shape.wall_grains().is_some() => "touched as a grain".to_owned(),
+            Some(number) => format!("of {}", scene.grains.material_name(number)),
+            None => format!(
                 "{}, {}",
-                part(wall.restitution, "restitution", "elastic"),
-                part(wall.friction, "kinetic friction", "smooth"),
-            )
+                part(wall.restitution, "restitution", bare),
+                part(wall.friction, friction, smooth),
+            ),
         };
         lines.push(format!(
             "wall `{}`: {}, {material}{}",
@@ -478,11 +403,43 @@ fn modelled(scene: &Scene, constants: &Constants) -> Vec<String> {
         )),
         Initial::File(_) | Initial::Grains(_) => {}
     }
-    if let Law::SpringDashpot { .. } = constants.law {
+    if constants.law.turns() {
         lines.push("spin: grains turn, contacts remember their stretch".into());
     }
     lines.extend(scene.water.as_ref().map(water_words));
     lines
+}
+
+/// The populations and what unlike materials make of each other, a line each.
+fn mixture(scene: &Scene, constants: &Constants) -> Vec<String> {
+    let grains = &scene.grains;
+    let population = |(kind, one): (&Kind, &Population)| {
+        format!(
+            "population: d = {:.4} mm, m = {:.4e} kg, {:.1} % of the mass, of {}",
+            kind.diameter() * 1e3,
+            kind.mass,
+            100.0 * one.share,
+            grains.material_name(one.material)
+        )
+    };
+    let pair = |pair: &PairOf| {
+        let [a, b] = pair.of.map(|number| grains.material_name(number));
+        let number = |name: &str, value: Option<f64>| {
+            value.map_or(String::new(), |value| format!(", {name} {value}"))
+        };
+        let friction = constants.law.turns().then_some(pair.friction);
+        format!(
+            "{a} and {b}{}{}{}",
+            number("restitution", pair.restitution),
+            number("friction", friction),
+            number("rolling friction", pair.rolling_friction)
+        )
+    };
+    let kinds = constants.populations.iter().zip(&grains.populations);
+    kinds
+        .map(population)
+        .chain(grains.pairs.iter().map(pair))
+        .collect()
 }
 
 fn shape(shape: &Shape) -> String {
@@ -524,35 +481,4 @@ fn motion(motion: &Motion) -> String {
         Begin::WhenStill => " once the grains are still".to_owned(),
     };
     text
-}
-
-fn not_modelled(scene: &Scene) -> Vec<String> {
-    let mut lines = match &scene.grains.law {
-        tsubu_scene::Law::Repulsion { .. } => vec![
-            "spin: grains do not turn and store no spin".to_owned(),
-            "static friction and contact memory: a heap creeps, its angle is a function of time"
-                .to_owned(),
-            "water, air, cohesion, breakage, grains of several sizes".to_owned(),
-        ],
-        tsubu_scene::Law::SpringDashpot(_) => vec![
-            "resistance to rolling".to_owned(),
-            match scene.water {
-                Some(_) => "lift, the grains' effect on the water, air, cohesion, breakage",
-                None => "water, air, cohesion, breakage",
-            }
-            .to_owned(),
-        ],
-    };
-    if !scene.output.energies {
-        lines.push(match scene.grains.law {
-            tsubu_scene::Law::Repulsion { .. } => {
-                "energy lost to damping and friction: not tallied (output.energies: true does)"
-                    .to_owned()
-            }
-            tsubu_scene::Law::SpringDashpot(_) => {
-                "energy lost to damping and friction: not tallied".to_owned()
-            }
-        });
-    }
-    lines
 }

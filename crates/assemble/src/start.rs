@@ -9,7 +9,7 @@ use std::sync::Arc;
 use tsubu_engine::Placed;
 use tsubu_model::{Dim, Domain, HitBuffer, Surface, Vector};
 use tsubu_neighbors::{CellGrid, ChunkList};
-use tsubu_scene::{Checked, Initial, MeshFile, Region, SceneError, TouchesAt, Wall};
+use tsubu_scene::{Checked, Fill, Initial, MeshFile, Region, SceneError, Space, TouchesAt, Wall};
 use tsubu_sdf::mesh::{Report, Verdict};
 use tsubu_sdf::{ExactMesh, Winding};
 
@@ -51,7 +51,7 @@ pub(crate) fn grains<D: Dim>(
                 .map(|g| Placed {
                     position: domain.wrap(D::from_space(g.at)),
                     velocity: D::from_space(g.velocity),
-                    kind: 0,
+                    kind: g.population,
                 })
                 .collect()
         }
@@ -63,13 +63,17 @@ pub(crate) fn grains<D: Dim>(
                     "bed",
                     sites::<D>(wanted, diameter, domain),
                 )?;
-                bed::<D>(wanted, diameter, &checked.scene.grains.sizes, domain)
+                bed::<D>(wanted, diameter, &checked.scene.grains.populations, domain)
             }
-            _ => filled(checked, diameter, domain, surfaces)?,
+            _ => filled(checked, constants, domain, surfaces)?,
         },
     };
-    refuse_walls(checked, &grains, diameter, surfaces)?;
-    refuse_overlaps(checked, &grains, diameter, domain)?;
+    let diameters: Vec<f64> = grains
+        .iter()
+        .map(|g| constants.diameter_of(g.kind))
+        .collect();
+    refuse_walls(checked, &grains, &diameters, surfaces)?;
+    refuse_overlaps(checked, &grains, &diameters, diameter, domain)?;
     Ok(grains)
 }
 
@@ -108,11 +112,12 @@ fn refuse_crowd(checked: &Checked, path: &str, kind: &str, count: f64) -> Result
 
 fn filled<D: Dim>(
     checked: &Checked,
-    diameter: f64,
+    constants: &Constants,
     domain: &Domain<D>,
     surfaces: &[Arc<dyn Surface<D>>],
 ) -> Result<Vec<Placed<D>>, SceneError> {
     let scene = &checked.scene;
+    let diameter = constants.kind.diameter();
     let Initial::Fill(wish) = &scene.initial else {
         return Ok(Vec::new());
     };
@@ -128,10 +133,16 @@ fn filled<D: Dim>(
             min: DVec3::ZERO,
             max: DVec3::ZERO,
         });
-    let count = match &inside {
-        None => wish.count(diameter, scene.space),
-        Some(inside) => wish.count_in(inside.volume_in(&region), diameter, scene.space),
+    let size = region.max - region.min;
+    let room = match (&inside, scene.space) {
+        (Some(inside), _) => inside.volume_in(&region),
+        (None, Space::Space) => size.x * size.y * size.z,
+        (None, Space::Plane) => size.x * size.z,
     };
+    let counts = counts_in(wish, room, constants, checked);
+    let count = counts
+        .iter()
+        .fold(0usize, |sum, (_, count)| sum.saturating_add(*count));
     if count == 0 {
         let what = format!(
             "the region has no room for a single grain of {:.4} mm at this solid fraction",
@@ -144,41 +155,85 @@ fn filled<D: Dim>(
         ));
     }
     refuse_crowd(checked, "initial.fill", "fill", count as f64)?;
+    let kinds: Vec<usize> = counts
+        .into_iter()
+        .flat_map(|(kind, count)| std::iter::repeat_n(kind, count))
+        .collect();
     // Bodies within the region are filled around; a wall without end that cuts it is a mistake, refused later.
-    let bodies: Vec<(&Arc<dyn Surface<D>>, f64)> = surfaces
+    let bodies: Vec<(&Arc<dyn Surface<D>>, &Wall)> = surfaces
         .iter()
         .zip(&scene.walls)
         .filter(|(surface, _)| surface.bounds().is_some())
-        .map(|(surface, wall)| (surface, clearance(wall, diameter)))
         .collect();
     let mut hits = HitBuffer::default();
-    let mut free = |x: D::V| {
-        let clear = bodies.iter().all(|(surface, reach)| {
-            if surface.lower_bound(x) >= *reach {
+    let mut free = |x: D::V, diameter: f64| {
+        let clear = bodies.iter().all(|(surface, wall)| {
+            let reach = clearance(wall, diameter);
+            if surface.lower_bound(x) >= reach {
                 return true;
             }
             hits.hits.clear();
-            surface.hits(&[x], &[*reach], &mut hits);
+            surface.hits(&[x], &[reach], &mut hits);
             hits.hits.is_empty()
         });
         let holds = |inside: &Inside| inside.holds(D::to_space(x), 0.5 * diameter);
         clear && inside.as_ref().is_none_or(holds)
     };
+    let diameters: Vec<f64> = kinds
+        .iter()
+        .map(|&kind| constants.diameter_of(kind))
+        .collect();
     let places = fill::<D>(
         &Box3 {
             min: region.min,
             max: region.max,
         },
-        count,
-        diameter,
+        &diameters,
         domain,
         wish.seed,
         &mut free,
     );
-    places.map(|places| places.into_iter().map(|x| Placed { position: x, velocity: D::V::ZERO, kind: 0 }).collect()).map_err(|fitted| {
+    let placed = |(position, kind)| Placed {
+        position,
+        velocity: D::V::ZERO,
+        kind,
+    };
+    places.map(|places| places.into_iter().zip(kinds).map(placed).collect()).map_err(|fitted| {
         let what = format!("the region has no room: only {fitted} of {count} grains of {:.4} mm could be placed", diameter * 1e3);
         checked.problem("initial.fill", what, "enlarge the region, lower solid_fraction or lower grains.coarse")
     })
+}
+
+/// How many grains of each kind a fill asks for, those of large diameter first: each population takes its share of what the
+/// solid fraction makes of the room (m³, in the plane m²).
+fn counts_in(
+    wish: &Fill,
+    room: f64,
+    constants: &Constants,
+    checked: &Checked,
+) -> Vec<(usize, usize)> {
+    let scene = &checked.scene;
+    let populations = &scene.grains.populations;
+    let count = |kind: usize, room: f64| {
+        let diameter = constants.diameter_of(kind);
+        (kind, wish.count_in(room, diameter, scene.space))
+    };
+    if populations.is_empty() {
+        return vec![count(0, room)];
+    }
+    // Shares of mass become shares of volume; in the plane spheres are counted by their discs, so there of area.
+    let taken = |k: usize| {
+        let flat = match scene.space {
+            Space::Space => 1.0,
+            Space::Plane => populations[k].diameter,
+        };
+        populations[k].share / populations[k].density / flat
+    };
+    let whole: f64 = (0..populations.len()).map(taken).sum();
+    let mut order: Vec<usize> = (0..populations.len()).collect();
+    order.sort_by(|&a, &b| populations[b].diameter.total_cmp(&populations[a].diameter));
+    let of = |k: usize| count(k, room * taken(k) / whole);
+    order.into_iter().map(of).collect()
 }
 
 /// Distance of a grain's centre from a wall at which they begin to touch.
@@ -243,16 +298,16 @@ impl Inside {
 fn refuse_walls<D: Dim>(
     checked: &Checked,
     grains: &[Placed<D>],
-    diameter: f64,
+    diameters: &[f64],
     surfaces: &[Arc<dyn Surface<D>>],
 ) -> Result<(), SceneError> {
     let mut hits = HitBuffer::default();
     for (wall, surface) in checked.scene.walls.iter().zip(surfaces) {
-        let offset = match wall.touches_at {
-            TouchesAt::Surface => 0.5 * diameter,
-            TouchesAt::Centre => 0.0,
-        };
-        for (i, grain) in grains.iter().enumerate() {
+        for (i, (grain, &diameter)) in grains.iter().zip(diameters).enumerate() {
+            let offset = match wall.touches_at {
+                TouchesAt::Surface => 0.5 * diameter,
+                TouchesAt::Centre => 0.0,
+            };
             let reach = clearance(wall, diameter);
             if surface.lower_bound(grain.position) >= reach {
                 continue;
@@ -291,11 +346,12 @@ fn refuse_walls<D: Dim>(
 fn refuse_overlaps<D: Dim>(
     checked: &Checked,
     grains: &[Placed<D>],
-    diameter: f64,
+    diameters: &[f64],
+    largest: f64,
     domain: &Domain<D>,
 ) -> Result<(), SceneError> {
     let n = grains.len();
-    let reach = diameter * (1.0 - most_overlap(checked));
+    let reach = largest * (1.0 - most_overlap(checked));
     let grid = CellGrid::new(domain, n, |i| grains[i].position, reach);
     let old = |sorted: usize| grid.order[sorted] as usize;
     let mut list = ChunkList::default();
@@ -309,11 +365,15 @@ fn refuse_overlaps<D: Dim>(
             reach,
             n as u32,
         );
-        if let Some((slot, j)) = list.iter().next() {
+        for (slot, j) in list.iter() {
             let (i, j) = (old(first + slot), old(j));
             let apart = domain
                 .nearest(grains[i].position - grains[j].position)
                 .length();
+            let diameter = 0.5 * (diameters[i] + diameters[j]);
+            if apart >= diameter * (1.0 - most_overlap(checked)) {
+                continue;
+            }
             let what = format!(
                 "grains {} and {} overlap at the start by {:.1} % of their diameter",
                 i.min(j),

@@ -1,7 +1,7 @@
 //! Water over a bed as a load on the grains of a run.
 
 use crate::constants::Constants;
-use crate::springs::{clear_water, sediment};
+use crate::grain::{clear_water, sediment};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tsubu_model::{Damaged, Dim, Load, Saved, Seen, SpinState, Vector, View, Words};

@@ -13,6 +13,7 @@
 
 mod body_law;
 mod hertz_mindlin;
+mod per_pair;
 mod repulsion;
 pub mod restitution;
 mod spring_dashpot;
@@ -26,6 +27,7 @@ pub use hertz_mindlin::{
     Bristle, Elastic, Freely, HertzMindlin, HertzMindlinPair, Resistance, Resisted, Rolling,
     rayleigh_time,
 };
+pub use per_pair::PerPair;
 pub use repulsion::{Damping, Isotropic, PerDirection, Repulsion, RepulsionPair};
 pub use spring_dashpot::{Normal, Slip, SpringDashpot, SpringDashpotPair, Stretch, Tension};
 pub use wall::{RepulsiveWall, RepulsiveWallPair};

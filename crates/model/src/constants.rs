@@ -71,6 +71,7 @@ impl Constants for crate::Kind {
             mass,
             inertia,
             weight,
+            material: self.material,
         }
     }
 }

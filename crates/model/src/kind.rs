@@ -14,6 +14,8 @@ pub struct Kind {
     pub inertia: f64,
     /// The mass that gravity pulls, in kg.
     pub weight: f64,
+    /// Number of its material, for laws that hold several: see `tsubu_contact::PerPair`.
+    pub material: usize,
 }
 
 impl Kind {
@@ -34,7 +36,13 @@ impl Kind {
             mass,
             inertia: mass * diameter * diameter / 10.0,
             weight: mass,
+            material: 0,
         }
+    }
+
+    /// The same of another material.
+    pub fn of(self, material: usize) -> Self {
+        Self { material, ..self }
     }
 
     /// A body that no contact moves: infinite mass. Walls pair with grains through this kind.
@@ -44,6 +52,7 @@ impl Kind {
             mass: f64::INFINITY,
             inertia: f64::INFINITY,
             weight: 0.0,
+            material: 0,
         }
     }
 

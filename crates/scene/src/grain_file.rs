@@ -16,11 +16,14 @@ const LONGEST: u64 = 1 << 30;
 /// The columns a grain file may have.
 const COLUMNS: [&str; 7] = ["x", "y", "z", "vx", "vy", "vz", "d"];
 
+/// Number of the diameter among them.
+const DIAMETER: usize = 6;
+
 /// The content of a grain file.
 ///
 /// The first line names the columns, in any order: x, y and z in m; vx, vy and vz in m/s, zero if absent; d in m.
 /// Empty lines and lines that begin with # are skipped. In a plane scene y and vy may be left out and are else zero.
-/// All grains are of one kind for now, so every d must be the scene's diameter.
+/// Every d is the diameter of one of the scene's populations; where they have several, the column is needed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrainFile {
     /// The grains in the order of the file.
@@ -28,15 +31,15 @@ pub struct GrainFile {
 }
 
 impl GrainFile {
-    /// Reads a grain file; `diameter` is the scene's, at coarse level 0.
+    /// Reads a grain file; the diameters are those of the scene's populations, at coarse level 0.
     ///
     /// # Errors
     /// When the file cannot be read, or a line of it is wrong.
-    pub fn read(path: &Path, diameter: f64, space: Space) -> Result<GrainFile, SceneError> {
+    pub fn read(path: &Path, diameters: &[f64], space: Space) -> Result<GrainFile, SceneError> {
         GrainFile::parse(
             &path.display().to_string(),
             &read_text(path, LONGEST, "a grain file")?,
-            diameter,
+            diameters,
             space,
         )
     }
@@ -48,7 +51,7 @@ impl GrainFile {
     pub fn parse(
         name: &str,
         text: &str,
-        diameter: f64,
+        diameters: &[f64],
         space: Space,
     ) -> Result<GrainFile, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -67,8 +70,13 @@ impl GrainFile {
             return Err(whole(name, "this grain file is empty"));
         };
         let columns = columns(&header, space)?;
+        if diameters.len() > 1 && !columns.contains(&DIAMETER) {
+            let end = header.text.trim_end().len();
+            let what = "the column d is missing: the scene has several populations";
+            return Err(header.error(end..end, what, "add the diameter of each grain in m"));
+        }
         let grains = lines
-            .map(|line| grain(&line, &columns, diameter, space))
+            .map(|line| grain(&line, &columns, diameters, space))
             .collect::<Result<Vec<_>, _>>()?;
         if grains.is_empty() {
             return Err(whole(
@@ -175,10 +183,11 @@ fn columns(header: &Line<'_>, space: Space) -> Result<Vec<usize>, SceneError> {
 fn grain(
     line: &Line<'_>,
     columns: &[usize],
-    diameter: f64,
+    diameters: &[f64],
     space: Space,
 ) -> Result<StartingGrain, SceneError> {
     let mut values = [0.0; COLUMNS.len()];
+    let mut population = 0;
     let mut count = 0;
     for (span, cell) in line.cells() {
         let Some(column) = columns.get(count).copied() else {
@@ -201,14 +210,17 @@ fn grain(
                 "write a number in SI units without the unit, such as 1.35e-3",
             ));
         };
-        if column == 6 && (value / diameter - 1.0).abs().max(0.0) > 1e-6 {
-            let what =
-                format!("this grain's diameter is {value:?} m, the scene's is {diameter:?} m");
-            return Err(line.error(
-                span,
-                what,
-                "all grains are of one kind for now: make the two equal, or leave the column d out",
-            ));
+        if column == DIAMETER {
+            let is_it = |of: &f64| (value / of - 1.0).abs() <= 1e-6;
+            population = diameters.iter().position(is_it).ok_or_else(|| {
+                let known: Vec<_> = diameters.iter().map(|of| format!("{of:?} m")).collect();
+                let what = format!(
+                    "this grain's diameter is {value:?} m, the scene's {}",
+                    known.join(", ")
+                );
+                let remedy = "make the two equal, or add a population of this diameter to grains.populations";
+                line.error(span.clone(), what, remedy)
+            })?;
         }
         if space == Space::Plane && matches!(column, 1 | 4) && value != 0.0 {
             return Err(line.error(
@@ -231,6 +243,7 @@ fn grain(
     Ok(StartingGrain {
         at: DVec3::new(x, y, z),
         velocity: DVec3::new(vx, vy, vz),
+        population,
     })
 }
 
@@ -240,7 +253,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn parse(text: &str) -> Result<Vec<StartingGrain>, SceneError> {
-        GrainFile::parse("grains.csv", text, 0.00135, Space::Space).map(|file| file.grains)
+        GrainFile::parse("grains.csv", text, &[0.00135], Space::Space).map(|file| file.grains)
     }
 
     #[test]
@@ -252,10 +265,11 @@ mod tests {
             grains,
             [StartingGrain {
                 at: DVec3::new(1.0, 2.0, 3.0),
-                velocity: DVec3::new(4.0, 5.0, 6.0)
+                velocity: DVec3::new(4.0, 5.0, 6.0),
+                population: 0,
             }]
         );
-        let plane = GrainFile::parse("p.csv", "x,z\n1,2", 1.0, Space::Plane).expect("in form");
+        let plane = GrainFile::parse("p.csv", "x,z\n1,2", &[1.0], Space::Plane).expect("in form");
         assert_eq!(plane.grains[0].at, DVec3::new(1.0, 0.0, 2.0));
     }
 
@@ -277,12 +291,24 @@ mod tests {
                 Some((2, 5)),
             ),
             ("x,y,z\n1,2,\n", "“” is no finite number", Some((2, 5))),
-            ("x,y,z,d\n1,2,3,1.36e-3\n", "one kind", Some((2, 7))),
+            ("x,y,z,d\n1,2,3,1.36e-3\n", "population", Some((2, 7))),
         ] {
             let error = parse(text).expect_err(text);
             assert!(error.to_string().contains(message), "{error}");
             assert_eq!(error.line_column(), place, "{error}");
         }
+    }
+
+    #[test]
+    fn the_diameter_says_whose_a_grain_is() {
+        let two = [0.00135, 0.0008];
+        let parse = |text: &str| GrainFile::parse("two.csv", text, &two, Space::Space);
+        let grains = parse("x,y,z,d\n0,0,0,8e-4\n1,0,0,1.35e-3\n").expect("in form");
+        let of: Vec<usize> = grains.grains.iter().map(|grain| grain.population).collect();
+        assert_eq!(of, [1, 0]);
+        let error = parse("x,y,z\n0,0,0\n").expect_err("no diameter");
+        assert!(error.to_string().contains("column d is missing"), "{error}");
+        assert_eq!(error.line_column(), Some((1, 6)));
     }
 
     proptest! {

@@ -52,9 +52,10 @@ pub use error::SceneError;
 pub use grain_file::GrainFile;
 pub use scene::{
     Axis, Bed, BedMeasure, Begin, CoarseRule, Conveying, Course, Damping, Datum, Domain, End, Fate,
-    Fill, Flow, FlowProfile, Grains, Hand, Initial, Inlet, Integrator, Law, Measures, MeshFile,
-    MeshSurface, Motion, NormalForce, Outlet, Output, Region, Removal, Scene, Shape, Shift, Size,
-    Slip, SoftenedDamping, Space, SpringConstants, SpringDashpot, StartingGrain, Step, Stiffness,
-    Still, Tension, Thin, Time, TouchesAt, Turbulence, Turn, Wall, Water,
+    Fill, Flow, FlowProfile, Grains, Hand, HertzMindlin, Initial, Inlet, Integrator, Law, Material,
+    Measures, MeshFile, MeshSurface, Motion, NormalForce, Outlet, Output, PairOf, Population,
+    Region, Removal, Resistance, RollingResistance, Scene, Shape, Shift, Slip, SoftenedDamping,
+    Space, SpringConstants, SpringDashpot, StartingGrain, Step, Stiffness, Still, Tension, Thin,
+    Time, TouchesAt, Turbulence, Turn, Wall, Water,
 };
 pub use source::Source;

@@ -11,8 +11,9 @@ use serde::Deserialize;
 
 pub(crate) use flow::{RawBedMeasure, RawConveying, RawFate, RawInlet, RawMeasures, RawOutlet};
 pub(crate) use grains::{
-    RawCoarseRule, RawConstants, RawDamping, RawGrains, RawLaw, RawNormalForce, RawSize, RawSlip,
-    RawSoftenedDamping, RawStiffness, RawTension,
+    RawCoarseRule, RawConstants, RawDamping, RawGrains, RawLaw, RawMaterial, RawNormalForce,
+    RawPairOf, RawPopulation, RawResistance, RawRolling, RawSlip, RawSoftenedDamping, RawStiffness,
+    RawTension,
 };
 pub(crate) use wall::{
     MESH_UNITS, MeshUnit, RawBegin, RawHand, RawMeshFile, RawMotion, RawRemoval, RawShape,
@@ -58,7 +59,8 @@ pub(crate) const ONE_OF: &[(&str, &[&str])] = &[
 /// The choices of each field that has some, for the message when something else stands there.
 pub(crate) const CHOICES: &[(&str, &[&str])] = &[
     ("space", &["Space", "Plane"]),
-    ("law", &["Repulsion", "SpringDashpot"]),
+    ("law", &["Repulsion", "SpringDashpot", "HertzMindlin"]),
+    ("by", &["ElasticPlastic", "Constant"]),
     ("constants", &["FromTimeStep", "Given", "FromRestitution"]),
     ("tension", &["NoPull", "AsPrinted"]),
     ("slip", &["Total", "AsPrinted"]),
@@ -181,6 +183,7 @@ pub(crate) struct RawRegion {
 pub(crate) struct RawGrain {
     pub at: Triple<Quantity<Length>>,
     pub velocity: Option<Triple<Quantity<Velocity>>>,
+    pub population: Option<Whole>,
 }
 
 #[derive(Deserialize)]
@@ -263,6 +266,7 @@ mod tests {
         let read = [
             accepted::<RawSpace>(),
             accepted::<RawLaw>(),
+            accepted::<RawResistance>(),
             accepted::<RawConstants>(),
             accepted::<RawTension>(),
             accepted::<RawSlip>(),

@@ -56,7 +56,7 @@ impl Scene {
         }
         writeln!(out, "    walls: [")?;
         for wall in &self.walls {
-            wall.write_to(out)?;
+            wall.write_to(out, &self.grains)?;
         }
         writeln!(out, "    ],")?;
         self.initial.write_to(out)?;
@@ -108,12 +108,24 @@ impl Initial {
             Initial::Bed(bed) => bed.write_to(out)?,
             Initial::Grains(grains) => {
                 writeln!(out, "        grains: [")?;
-                for StartingGrain { at, velocity } in grains {
+                for StartingGrain {
+                    at,
+                    velocity,
+                    population,
+                } in grains
+                {
                     let (at, velocity) = (
                         triple(Dimension::Length, *at),
                         triple(Dimension::Velocity, *velocity),
                     );
-                    writeln!(out, "            (at: {at}, velocity: {velocity}),")?;
+                    let population = match population {
+                        0 => String::new(),
+                        more => format!(", population: {more}"),
+                    };
+                    writeln!(
+                        out,
+                        "            (at: {at}, velocity: {velocity}{population}),"
+                    )?;
                 }
                 writeln!(out, "        ],")?;
             }

@@ -2,6 +2,7 @@
 
 mod flow;
 mod grains;
+mod hertz_mindlin;
 mod initial;
 mod motion;
 mod seeds;
@@ -10,7 +11,10 @@ mod wall;
 mod water;
 
 pub use flow::{BedMeasure, Conveying, Fate, Inlet, Measures, Outlet, Region};
-pub use grains::{CoarseRule, Damping, Grains, Law, Size, SoftenedDamping, Stiffness};
+pub use grains::{
+    CoarseRule, Damping, Grains, Law, Material, PairOf, Population, SoftenedDamping, Stiffness,
+};
+pub use hertz_mindlin::{HertzMindlin, Resistance, RollingResistance};
 pub use initial::{Bed, Fill, Initial, StartingGrain};
 pub use motion::{Begin, Course, Motion, Shift, Turn};
 pub use springs::{NormalForce, Slip, SpringConstants, SpringDashpot, Tension};
@@ -26,7 +30,7 @@ pub struct Scene {
     pub space: Space,
     /// Acceleration of gravity, m/s², not negative; along −z but for the slope of the water's bed.
     pub gravity: f64,
-    /// The grains, all of one material.
+    /// The grains.
     pub grains: Grains,
     /// Which axes are periodic.
     pub domain: Domain,

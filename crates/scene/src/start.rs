@@ -37,8 +37,12 @@ impl Checked {
                     let remedy = "a path in a scene starts from the scene's folder; --set initial.file=PATH names another file";
                     return Err(self.problem("initial.file", what, remedy));
                 }
-                GrainFile::read(path, self.scene.grains.diameter, self.scene.space)
-                    .map(|file| Some(file.grains))
+                let grains = &self.scene.grains;
+                let diameters: Vec<f64> = match grains.populations.len() {
+                    0 => vec![grains.diameter],
+                    _ => grains.populations.iter().map(|one| one.diameter).collect(),
+                };
+                GrainFile::read(path, &diameters, self.scene.space).map(|file| Some(file.grains))
             }
         }
     }

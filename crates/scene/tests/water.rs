@@ -44,7 +44,7 @@ fn water(overrides: &[&str]) -> Water {
 fn law(overrides: &[&str]) -> SpringDashpot {
     match good(overrides).grains.law {
         Law::SpringDashpot(law) => law,
-        Law::Repulsion { .. } => panic!("another law"),
+        other => panic!("another law: {other:?}"),
     }
 }
 
@@ -65,7 +65,7 @@ fn what_is_left_out_has_its_default() {
         normal_force: NormalForce::Closed,
     };
     assert_eq!(scene.grains.law, Law::SpringDashpot(usual));
-    assert_eq!(scene.grains.sizes, []);
+    assert_eq!(scene.grains.populations, []);
     let bed = Bed {
         layers: 10,
         spacing: 1.07,
@@ -185,32 +185,35 @@ fn walls_may_leave_their_constants_to_the_grains() {
 
 #[test]
 fn sizes_keep_their_order_and_the_mass_of_the_largest() {
-    let sizes =
-        r#"grains.sizes=[(diameter: "0.3 mm", share: 0.25), (diameter: "0.5 mm", share: 0.75)]"#;
+    let sizes = r#"grains.populations=[(diameter: "0.3 mm", share: 0.25), (diameter: "0.5 mm", share: 0.75)]"#;
     let dry = ["water=None", sizes];
     let grains = good(&dry).grains;
     let expected = [
-        Size {
+        Population {
             diameter: 3e-4,
+            density: grains.density(),
             share: 0.25,
+            material: 0,
         },
-        Size {
+        Population {
             diameter: 5e-4,
+            density: grains.density(),
             share: 0.75,
+            material: 0,
         },
     ];
-    assert_eq!(grains.sizes, expected);
+    assert_eq!(grains.populations, expected);
     assert_eq!(grains.mass, good(&["water=None"]).grains.mass);
     // A millionth of the mass may be lost to rounding, and no more.
     let third = r#"(diameter: "0.3 mm", share: 0.3333333), (diameter: "0.4 mm", share: 0.3333333), (diameter: "0.5 mm", share: "#;
     assert_eq!(
-        good(&[&format!("grains.sizes=[{third}0.3333333)]")])
+        good(&[&format!("grains.populations=[{third}0.3333333)]")])
             .grains
-            .sizes
+            .populations
             .len(),
         3
     );
-    assert!(with(&[&format!("grains.sizes=[{third}0.3333)]")]).is_err());
+    assert!(with(&[&format!("grains.populations=[{third}0.3333)]")]).is_err());
 }
 
 #[test]
@@ -218,7 +221,7 @@ fn a_density_is_written_for_sizes_that_gives_the_mass_to_the_bit() {
     for i in 0..2000 {
         let density = format!("grains.density={} kg/m3", 1000.0 + 1.2345678 * f64::from(i));
         let diameter = format!("{} um", 300.0 + 0.7654321 * f64::from(i));
-        let sizes = format!("grains.sizes=[(diameter: \"{diameter}\", share: 1)]");
+        let sizes = format!("grains.populations=[(diameter: \"{diameter}\", share: 1)]");
         let diameter = format!("grains.diameter={diameter}");
         good(&["water=None", &density, &diameter, &sizes]);
     }

@@ -3,7 +3,8 @@
 use serde::Deserialize;
 
 use crate::quantity::{
-    Damping, Density, Energy, Length, Mass, Number, Pressure, Quantity, Stiffness, Time, Whole,
+    Damping, Density, Energy, Length, Mass, Number, Pair, Pressure, Quantity, Stiffness, Time,
+    Whole,
 };
 
 #[derive(Deserialize)]
@@ -12,8 +13,11 @@ pub(crate) struct RawGrains {
     pub diameter: Quantity<Length>,
     pub density: Option<Quantity<Density>>,
     pub mass: Option<Quantity<Mass>>,
-    pub sizes: Option<Vec<RawSize>>,
+    pub material: Option<String>,
+    pub populations: Option<Vec<RawPopulation>>,
     pub law: RawLaw,
+    pub materials: Option<Vec<RawMaterial>>,
+    pub pairs: Option<Vec<RawPairOf>>,
     pub soften: Option<Number>,
     pub softened_damping: Option<RawSoftenedDamping>,
     pub coarse: Option<Whole>,
@@ -21,10 +25,28 @@ pub(crate) struct RawGrains {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "size")]
-pub(crate) struct RawSize {
+#[serde(deny_unknown_fields, rename = "population")]
+pub(crate) struct RawPopulation {
     pub diameter: Quantity<Length>,
     pub share: Number,
+    pub density: Option<Quantity<Density>>,
+    pub material: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "material")]
+pub(crate) struct RawMaterial {
+    pub name: String,
+    pub law: RawLaw,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "pair")]
+pub(crate) struct RawPairOf {
+    pub of: Pair<String>,
+    pub restitution: Option<Number>,
+    pub friction: Option<Number>,
+    pub rolling_friction: Option<Number>,
 }
 
 #[derive(Deserialize)]
@@ -42,6 +64,39 @@ pub(crate) enum RawLaw {
         slip: Option<RawSlip>,
         normal_force: Option<RawNormalForce>,
     },
+    HertzMindlin {
+        young: Quantity<Pressure>,
+        poisson: Number,
+        restitution: Number,
+        friction: Number,
+        rolling: Option<RawRolling>,
+    },
+}
+
+impl RawLaw {
+    /// Its name in a scene.
+    pub fn name(&self) -> &'static str {
+        match self {
+            RawLaw::Repulsion { .. } => "Repulsion",
+            RawLaw::SpringDashpot { .. } => "SpringDashpot",
+            RawLaw::HertzMindlin { .. } => "HertzMindlin",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename = "rolling")]
+pub(crate) struct RawRolling {
+    pub friction: Number,
+    pub damping: Option<Number>,
+    pub by: Option<RawResistance>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "by")]
+pub(crate) enum RawResistance {
+    ElasticPlastic,
+    Constant,
 }
 
 #[derive(Deserialize)]

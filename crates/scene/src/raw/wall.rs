@@ -12,6 +12,7 @@ use crate::quantity::{
 pub(crate) struct RawWall {
     pub name: String,
     pub shape: RawShape,
+    pub material: Option<String>,
     pub restitution: Option<Number>,
     pub friction: Option<Number>,
     pub touches_at: Option<RawTouchesAt>,

@@ -2,8 +2,11 @@
 
 use std::fmt::{Result, Write};
 
-use super::quantity;
-use crate::scene::{Damping, Grains, Law, SpringConstants, SpringDashpot, Stiffness};
+use super::{quantity, text};
+use crate::scene::{
+    Damping, Grains, HertzMindlin, Law, Material, Resistance, SpringConstants, SpringDashpot,
+    Stiffness,
+};
 use crate::units::Dimension;
 
 impl Grains {
@@ -15,38 +18,65 @@ impl Grains {
             quantity(Dimension::Length, self.diameter)
         )?;
         self.write_mass(out)?;
-        match &self.law {
-            Law::Repulsion { stiffness, damping } => {
-                let (stiffness, damping) = (stiffness_of(stiffness), damping_of(damping));
-                writeln!(
-                    out,
-                    "        law: Repulsion(stiffness: {stiffness}, damping: {damping}),"
-                )?;
-                writeln!(out, "        soften: {:?},", self.soften)?;
-                writeln!(
-                    out,
-                    "        softened_damping: {:?},",
-                    self.softened_damping
-                )?;
-            }
-            Law::SpringDashpot(law) => law.write_to(out)?,
+        writeln!(out, "        law: {},", law_of(&self.law, "        ")?)?;
+        if let Law::Repulsion { .. } = self.law {
+            writeln!(out, "        soften: {:?},", self.soften)?;
+            writeln!(
+                out,
+                "        softened_damping: {:?},",
+                self.softened_damping
+            )?;
         }
+        self.write_materials(out)?;
         writeln!(out, "        coarse: {},", self.coarse)?;
         writeln!(out, "        coarse_rule: {:?},", self.coarse_rule)?;
         writeln!(out, "    ),")
     }
 
     fn write_mass(&self, out: &mut String) -> Result {
-        if self.sizes.is_empty() {
+        if self.populations.is_empty() {
             let mass = quantity(Dimension::Mass, self.mass);
             return writeln!(out, "        mass: {mass}, // {:.6} kg/m3", self.density());
         }
         let density = quantity(Dimension::Density, self.density_of_the_mass());
-        writeln!(out, "        density: {density},\n        sizes: [")?;
-        for size in &self.sizes {
-            let diameter = quantity(Dimension::Length, size.diameter);
-            let share = size.share;
-            writeln!(out, "            (diameter: {diameter}, share: {share:?}),")?;
+        writeln!(out, "        density: {density},\n        populations: [")?;
+        for one in &self.populations {
+            writeln!(
+                out,
+                "            (diameter: {}, share: {:?}, density: {}, material: {}),",
+                quantity(Dimension::Length, one.diameter),
+                one.share,
+                quantity(Dimension::Density, one.density),
+                text(self.material_name(one.material))
+            )?;
+        }
+        writeln!(out, "        ],")
+    }
+
+    fn write_materials(&self, out: &mut String) -> Result {
+        writeln!(out, "        material: {},", text(&self.material))?;
+        if self.materials.is_empty() {
+            return Ok(());
+        }
+        writeln!(out, "        materials: [")?;
+        for Material { name, law } in &self.materials {
+            let law = law_of(law, "            ")?;
+            writeln!(out, "            (name: {}, law: {law}),", text(name))?;
+        }
+        writeln!(out, "        ],\n        pairs: [")?;
+        for pair in &self.pairs {
+            let [a, b] = pair.of.map(|number| text(self.material_name(number)));
+            write!(out, "            (of: ({a}, {b})")?;
+            if let Some(restitution) = pair.restitution {
+                write!(out, ", restitution: {restitution:?}")?;
+            }
+            if !matches!(self.law, Law::Repulsion { .. }) {
+                write!(out, ", friction: {:?}", pair.friction)?;
+            }
+            if let Some(friction) = pair.rolling_friction {
+                write!(out, ", rolling_friction: {friction:?}")?;
+            }
+            writeln!(out, "),")?;
         }
         writeln!(out, "        ],")
     }
@@ -61,28 +91,60 @@ impl Grains {
     }
 }
 
-impl SpringDashpot {
-    fn write_to(&self, out: &mut String) -> Result {
-        writeln!(out, "        law: SpringDashpot(")?;
-        let constants = constants_of(&self.constants);
-        writeln!(out, "            constants: {constants},")?;
-        let follows = !matches!(
-            self.constants,
-            SpringConstants::Given {
-                tangential_stiffness: Some(_),
-                tangential_damping: Some(_),
-                ..
-            }
-        );
-        if follows {
-            writeln!(out, "            poisson: {:?},", self.poisson)?;
+/// A law as it is written, its closing bracket at this indent.
+fn law_of(law: &Law, indent: &str) -> std::result::Result<String, std::fmt::Error> {
+    Ok(match law {
+        Law::Repulsion { stiffness, damping } => {
+            let (stiffness, damping) = (stiffness_of(stiffness), damping_of(damping));
+            format!("Repulsion(stiffness: {stiffness}, damping: {damping})")
         }
-        writeln!(out, "            friction: {:?},", self.friction)?;
-        writeln!(out, "            tension: {:?},", self.tension)?;
-        writeln!(out, "            slip: {:?},", self.slip)?;
-        writeln!(out, "            normal_force: {:?},", self.normal_force)?;
-        writeln!(out, "        ),")
+        Law::SpringDashpot(law) => springs_of(law, indent)?,
+        Law::HertzMindlin(law) => hertz_of(law),
+    })
+}
+
+fn hertz_of(law: &HertzMindlin) -> String {
+    let rolling = law.rolling.map_or(String::new(), |rolling| {
+        let damping = match rolling.by {
+            Resistance::Constant => String::new(),
+            Resistance::ElasticPlastic => format!(", damping: {:?}", rolling.damping),
+        };
+        format!(
+            ", rolling: (friction: {:?}{damping}, by: {:?})",
+            rolling.friction, rolling.by
+        )
+    });
+    format!(
+        "HertzMindlin(young: {}, poisson: {:?}, restitution: {:?}, friction: {:?}{rolling})",
+        quantity(Dimension::Pressure, law.young),
+        law.poisson,
+        law.restitution,
+        law.friction
+    )
+}
+
+fn springs_of(law: &SpringDashpot, indent: &str) -> std::result::Result<String, std::fmt::Error> {
+    let mut out = String::new();
+    writeln!(out, "SpringDashpot(")?;
+    let constants = constants_of(&law.constants);
+    writeln!(out, "{indent}    constants: {constants},")?;
+    let follows = !matches!(
+        law.constants,
+        SpringConstants::Given {
+            tangential_stiffness: Some(_),
+            tangential_damping: Some(_),
+            ..
+        }
+    );
+    if follows {
+        writeln!(out, "{indent}    poisson: {:?},", law.poisson)?;
     }
+    writeln!(out, "{indent}    friction: {:?},", law.friction)?;
+    writeln!(out, "{indent}    tension: {:?},", law.tension)?;
+    writeln!(out, "{indent}    slip: {:?},", law.slip)?;
+    writeln!(out, "{indent}    normal_force: {:?},", law.normal_force)?;
+    write!(out, "{indent})")?;
+    Ok(out)
 }
 
 fn constants_of(constants: &SpringConstants) -> String {

@@ -5,13 +5,19 @@ use std::fmt::{Result, Write};
 use glam::DVec3;
 
 use super::{mesh_file, numbers, quantity, region, text, triple};
-use crate::scene::{Begin, Course, MeshSurface, Motion, Region, Removal, Shape, Shift, Turn, Wall};
+use crate::scene::{
+    Begin, Course, Grains, MeshSurface, Motion, Region, Removal, Shape, Shift, Turn, Wall,
+};
 use crate::units::Dimension;
 
 impl Wall {
-    pub(super) fn write_to(&self, out: &mut String) -> Result {
+    pub(super) fn write_to(&self, out: &mut String, grains: &Grains) -> Result {
         writeln!(out, "        (")?;
         writeln!(out, "            name: {},", text(&self.name))?;
+        if let Some(material) = self.material {
+            let material = text(grains.material_name(material));
+            writeln!(out, "            material: {material},")?;
+        }
         let (name, fields) = (self.shape.name(), fields(&self.shape));
         writeln!(out, "            shape: {name}({fields}),")?;
         if let Some(restitution) = self.restitution {

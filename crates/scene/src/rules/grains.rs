@@ -1,8 +1,8 @@
-//! The rules of grains: sizes and mass, softening and coarsening.
+//! The rules of grains: diameter and mass, softening and coarsening.
 
 use super::Rules;
-use crate::raw::{RawCoarseRule, RawGrains, RawSize, RawSoftenedDamping};
-use crate::scene::{CoarseRule, Grains, Size, SoftenedDamping};
+use crate::raw::{RawCoarseRule, RawGrains, RawSoftenedDamping};
+use crate::scene::{CoarseRule, Grains, SoftenedDamping};
 
 impl Rules<'_> {
     pub(super) fn grains(&mut self, raw: RawGrains) -> Option<Grains> {
@@ -29,10 +29,10 @@ impl Rules<'_> {
                 "check the units of the diameter and of this value",
             );
         }
-        if raw.mass.is_some() && raw.density.is_none() && raw.sizes.is_some() {
+        if raw.mass.is_some() && raw.density.is_none() && raw.populations.is_some() {
             self.refuse(
                 "grains.mass",
-                "grains of several sizes have no one mass",
+                "grains of several populations have no one mass",
                 "give their density instead",
             );
         }
@@ -53,13 +53,23 @@ impl Rules<'_> {
                 "each level doubles the diameter: 8 levels already make it 256 times larger",
             );
         }
-        let sizes = raw.sizes.as_deref();
-        let sizes = sizes.map_or(Vec::new(), |sizes| self.sizes(sizes, diameter, coarse));
+        let further = raw.materials.as_deref().unwrap_or_default();
+        self.name_materials(raw.material, further);
+        let populations = raw.populations.as_deref();
+        let populations = populations.map_or(Vec::new(), |populations| {
+            self.populations(populations, diameter, mass / volume)
+        });
+        let law = self.law("grains.law", &raw.law, diameter);
+        let materials = self.further_materials(further, &law, diameter);
+        let pairs = self.pairs(raw.pairs.as_deref().unwrap_or_default(), &law);
         Some(Grains {
             diameter,
             mass,
-            sizes,
-            law: self.law(&raw.law, diameter),
+            material: self.materials[0].clone(),
+            populations,
+            law,
+            materials,
+            pairs,
             soften,
             softened_damping: match raw.softened_damping {
                 None | Some(RawSoftenedDamping::Kept) => SoftenedDamping::Kept,
@@ -81,83 +91,16 @@ impl Rules<'_> {
             ("soften", raw.soften.is_some()),
             ("softened_damping", raw.softened_damping.is_some()),
         ] {
-            if given && self.springs {
+            if given && self.spins() {
                 self.refuse(
                     format!("grains.{field}"),
-                    format!("law SpringDashpot is not softened, so {field} would be ignored"),
-                    "remove it, and soften by beta in FromTimeStep or by a smaller stiffness",
+                    format!("law {} is not softened, so {field} would be ignored", self.law),
+                    match self.law {
+                        "SpringDashpot" => "remove it, and soften by beta in FromTimeStep or by a smaller stiffness",
+                        _ => "remove it, and soften by a smaller Young's modulus",
+                    },
                 );
             }
-        }
-    }
-
-    fn sizes(&mut self, raw: &[RawSize], largest: f64, coarse: u64) -> Vec<Size> {
-        if !self.springs {
-            self.refuse(
-                "grains.sizes",
-                "only grains of the law SpringDashpot come in several sizes",
-                "remove sizes, or choose law: SpringDashpot(…)",
-            );
-        }
-        if coarse > 0 {
-            self.refuse(
-                "grains.coarse",
-                "grains of several sizes cannot be coarsened",
-                "write coarse: 0, or remove sizes",
-            );
-        }
-        let mut sizes: Vec<Size> = Vec::with_capacity(raw.len());
-        for (i, raw) in raw.iter().enumerate() {
-            let path = |field: &str| format!("grains.sizes[{i}].{field}");
-            let size = Size {
-                diameter: self.above_zero(&path("diameter"), "the diameter", raw.diameter.0),
-                share: self.above_zero(&path("share"), "the share", raw.share.0),
-            };
-            if sizes.iter().any(|other| other.diameter == size.diameter) {
-                self.refuse(
-                    path("diameter"),
-                    "two sizes have the same diameter",
-                    "write it once, with the sum of the shares",
-                );
-            }
-            if size.diameter > largest {
-                self.refuse(
-                    path("diameter"),
-                    "this size is larger than the diameter of the grains",
-                    "grains.diameter is that of the largest size",
-                );
-            }
-            sizes.push(size);
-        }
-        self.whole(&sizes, largest);
-        sizes
-    }
-
-    /// Refuses sizes that together are no mixture.
-    fn whole(&mut self, sizes: &[Size], largest: f64) {
-        if sizes.is_empty() {
-            self.refuse(
-                "grains.sizes",
-                "the list of sizes is empty",
-                "list (diameter: …, share: …) for each size, or remove it for grains of one size",
-            );
-            return;
-        }
-        if sizes.iter().all(|size| size.diameter < largest) {
-            self.refuse(
-                "grains.sizes",
-                "no size has the diameter of the grains",
-                "grains.diameter is that of the largest size: write the same there and here",
-            );
-        }
-        let sum: f64 = sizes.iter().map(|size| size.share).sum();
-        if (sum - 1.0).abs() > 1e-6 {
-            let sum = (sum * 1e7).round() / 1e7;
-            self.refuse(
-                "grains.sizes",
-                format!("the shares of the sizes add up to {sum}, not to 1"),
-                "they are shares of the mass of all grains",
-            );
         }
     }
 }

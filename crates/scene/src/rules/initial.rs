@@ -6,7 +6,7 @@ use super::Rules;
 use super::vectors::lengths;
 use crate::quantity::Number;
 use crate::raw::{RawBed, RawFill, RawGrain, RawInitial};
-use crate::scene::{Axis, Bed, Domain, Fill, Grains, Initial, Space, StartingGrain};
+use crate::scene::{Axis, Bed, Domain, Fill, Initial, Space, StartingGrain};
 
 /// The most layers of a bed; more is a slip of the pen.
 const LAYERS: u64 = 10_000;
@@ -97,7 +97,11 @@ impl Rules<'_> {
                 DVec3::from_array(velocity.0.map(|part| part.0))
             });
             self.in_plane(&format!("initial.grains[{i}].velocity"), velocity);
-            StartingGrain { at, velocity }
+            StartingGrain {
+                at,
+                velocity,
+                population: raw.population.map_or(0, |number| number.0 as usize),
+            }
         };
         raw.iter().enumerate().map(grain).collect()
     }
@@ -154,7 +158,7 @@ impl Rules<'_> {
 
     /// What a bed asks of the rest of the scene.
     fn bed_fits(&mut self, domain: &Domain, gravity: f64) {
-        if !self.springs {
+        if !self.spins() {
             self.refuse(
                 "initial.bed",
                 "a bed needs grains that hold by friction: those of law SpringDashpot",
@@ -176,22 +180,6 @@ impl Rules<'_> {
                 "gravity",
                 "a bed falls together under gravity, but there is none",
                 "give gravity a value, or start from a fill",
-            );
-        }
-    }
-
-    /// Grains of several sizes are drawn by the program: a file and a list name one diameter.
-    pub(super) fn sizes_are_drawn(&mut self, grains: &Grains, initial: &Initial) {
-        let from = match initial {
-            Initial::File(_) => "a file",
-            Initial::Grains(_) => "a list",
-            Initial::Fill(_) | Initial::Bed(_) => return,
-        };
-        if !grains.sizes.is_empty() {
-            self.refuse(
-                "grains.sizes",
-                format!("grains from {from} have one size, so sizes would be ignored"),
-                "remove sizes, or start from a bed",
             );
         }
     }

@@ -3,20 +3,26 @@
 use super::Rules;
 use crate::quantity::{Number, Quantity, Stiffness as StiffnessUnit};
 use crate::raw::{
-    RawConstants, RawDamping, RawLaw, RawNormalForce, RawSlip, RawStiffness, RawTension,
+    RawConstants, RawDamping, RawLaw, RawNormalForce, RawResistance, RawRolling, RawSlip,
+    RawStiffness, RawTension,
 };
 use crate::scene::{
-    Damping, Law, NormalForce, Slip, SpringConstants, SpringDashpot, Stiffness, Tension,
+    Damping, HertzMindlin, Law, NormalForce, Resistance, RollingResistance, Slip, SpringConstants,
+    SpringDashpot, Stiffness, Tension,
 };
 
 /// Poisson's ratio when the scene does not say.
 const POISSON: f64 = 0.3;
 
+/// Damping ratio of rolling when the scene does not say.
+const ROLLING_DAMPING: f64 = 0.3;
+
 impl Rules<'_> {
-    pub(super) fn law(&mut self, raw: &RawLaw, diameter: f64) -> Law {
+    /// The law at this path; `diameter` is that of the grains.
+    pub(super) fn law(&mut self, at: &str, raw: &RawLaw, diameter: f64) -> Law {
         match raw {
             RawLaw::Repulsion { stiffness, damping } => {
-                self.repulsion(stiffness, damping, diameter)
+                self.repulsion(at, stiffness, damping, diameter)
             }
             RawLaw::SpringDashpot {
                 constants,
@@ -26,9 +32,9 @@ impl Rules<'_> {
                 slip,
                 normal_force,
             } => Law::SpringDashpot(SpringDashpot {
-                constants: self.spring_constants(*constants),
-                poisson: self.poisson(poisson.as_ref(), constants),
-                friction: self.not_negative("grains.law.friction", "the friction", friction.0),
+                constants: self.spring_constants(at, *constants),
+                poisson: self.poisson(at, poisson.as_ref(), constants),
+                friction: self.not_negative(&format!("{at}.friction"), "the friction", friction.0),
                 tension: match tension {
                     None | Some(RawTension::NoPull) => Tension::NoPull,
                     Some(RawTension::AsPrinted) => Tension::AsPrinted,
@@ -42,11 +48,66 @@ impl Rules<'_> {
                     Some(RawNormalForce::Incremental) => NormalForce::Incremental,
                 },
             }),
+            RawLaw::HertzMindlin {
+                young,
+                poisson,
+                restitution,
+                friction,
+                rolling,
+            } => Law::HertzMindlin(HertzMindlin {
+                young: self.above_zero(&format!("{at}.young"), "Young's modulus", young.0),
+                poisson: self.poisson_of_solid(&format!("{at}.poisson"), poisson.0),
+                restitution: self.restitution(
+                    &format!("{at}.restitution"),
+                    restitution.0,
+                    "1 returns all the speed",
+                ),
+                friction: self.not_negative(&format!("{at}.friction"), "the friction", friction.0),
+                rolling: rolling.map(|rolling| self.rolling(&format!("{at}.rolling"), rolling)),
+            }),
         }
     }
 
-    fn spring_constants(&mut self, raw: RawConstants) -> SpringConstants {
-        let path = |field: &str| format!("grains.law.constants.{field}");
+    /// Poisson's ratio of an elastic solid: from −1, which it cannot reach, to that of one that keeps its volume.
+    fn poisson_of_solid(&mut self, path: &str, value: f64) -> f64 {
+        if !(value > -1.0 && value <= 0.5) {
+            self.refuse(
+                path,
+                "Poisson's ratio is outside (-1, 0.5]",
+                "glass has 0.22, steel 0.3, rubber nearly 0.5",
+            );
+        }
+        value
+    }
+
+    fn rolling(&mut self, path: &str, raw: RawRolling) -> RollingResistance {
+        let by = match raw.by {
+            None | Some(RawResistance::ElasticPlastic) => Resistance::ElasticPlastic,
+            Some(RawResistance::Constant) => Resistance::Constant,
+        };
+        if by == Resistance::Constant && raw.damping.is_some() {
+            self.refuse(
+                format!("{path}.damping"),
+                "a constant couple has no spring, so damping would be ignored",
+                "remove it, or write by: ElasticPlastic",
+            );
+        }
+        RollingResistance {
+            friction: self.above_zero(
+                &format!("{path}.friction"),
+                "the rolling friction",
+                raw.friction.0,
+            ),
+            damping: raw.damping.map_or(ROLLING_DAMPING, |damping| {
+                let path = format!("{path}.damping");
+                self.not_negative(&path, "the damping ratio of rolling", damping.0)
+            }),
+            by,
+        }
+    }
+
+    fn spring_constants(&mut self, at: &str, raw: RawConstants) -> SpringConstants {
+        let path = |field: &str| format!("{at}.constants.{field}");
         let stiff = |rules: &mut Self, value: Quantity<StiffnessUnit>| {
             rules.above_zero(&path("normal_stiffness"), "the normal stiffness", value.0)
         };
@@ -92,7 +153,8 @@ impl Rules<'_> {
         }
     }
 
-    fn poisson(&mut self, raw: Option<&Number>, constants: &RawConstants) -> f64 {
+    fn poisson(&mut self, at: &str, raw: Option<&Number>, constants: &RawConstants) -> f64 {
+        let path = format!("{at}.poisson");
         let both_given = matches!(
             constants,
             RawConstants::Given {
@@ -103,14 +165,14 @@ impl Rules<'_> {
         );
         if raw.is_some() && both_given {
             self.refuse(
-                "grains.law.poisson",
+                path.as_str(),
                 "poisson would be ignored: both tangential constants are given",
                 "remove it, or one of tangential_stiffness and tangential_damping",
             );
         }
         raw.map_or(POISSON, |ratio| {
             self.within(
-                "grains.law.poisson",
+                &path,
                 "Poisson's ratio",
                 ratio.0,
                 [0.0, 0.5],
@@ -119,22 +181,29 @@ impl Rules<'_> {
         })
     }
 
-    fn repulsion(&mut self, stiffness: &RawStiffness, damping: &RawDamping, diameter: f64) -> Law {
+    fn repulsion(
+        &mut self,
+        at: &str,
+        stiffness: &RawStiffness,
+        damping: &RawDamping,
+        diameter: f64,
+    ) -> Law {
+        let path = |field: &str| format!("{at}.{field}");
         let stiffness = match stiffness {
             RawStiffness::YoungModulus(modulus) => Stiffness::YoungModulus(self.above_zero(
-                "grains.law.stiffness[0]",
+                &path("stiffness[0]"),
                 "Young's modulus",
                 modulus.0,
             )),
             RawStiffness::Energy { epsilon, sigma } => {
-                let epsilon = self.above_zero("grains.law.stiffness.epsilon", "epsilon", epsilon.0);
-                let sigma = self.above_zero("grains.law.stiffness.sigma", "sigma", sigma.0);
+                let epsilon = self.above_zero(&path("stiffness.epsilon"), "epsilon", epsilon.0);
+                let sigma = self.above_zero(&path("stiffness.sigma"), "sigma", sigma.0);
                 let fitting = diameter / 2_f64.powf(1.0 / 6.0);
                 if sigma > 0.0 && diameter > 0.0 && (sigma / fitting - 1.0).abs() > 0.01 {
                     let what =
                         "the law's reach 2^(1/6) sigma is not the grain's diameter (within 1 %)";
                     self.refuse(
-                        "grains.law.stiffness.sigma",
+                        path("stiffness.sigma"),
                         what,
                         format!("sigma: \"{fitting:.4e} m\" fits the diameter"),
                     );
@@ -144,16 +213,12 @@ impl Rules<'_> {
         };
         let damping = match damping {
             RawDamping::Equal(both) => {
-                Damping::Equal(self.not_negative("grains.law.damping[0]", "the damping", both.0))
+                Damping::Equal(self.not_negative(&path("damping[0]"), "the damping", both.0))
             }
             RawDamping::Parts { normal, tangential } => Damping::Parts {
-                normal: self.not_negative(
-                    "grains.law.damping.normal",
-                    "the normal damping",
-                    normal.0,
-                ),
+                normal: self.not_negative(&path("damping.normal"), "the normal damping", normal.0),
                 tangential: self.not_negative(
-                    "grains.law.damping.tangential",
+                    &path("damping.tangential"),
                     "the tangential damping",
                     tangential.0,
                 ),

@@ -4,6 +4,7 @@ mod flow;
 mod grains;
 mod initial;
 mod law;
+mod materials;
 mod measures;
 mod motion;
 mod room;
@@ -15,7 +16,7 @@ mod water;
 
 use std::path::{Path, PathBuf};
 
-use crate::raw::{ONE_OF, RawLaw, RawScene, RawSpace};
+use crate::raw::{ONE_OF, RawScene, RawSpace};
 use crate::scene::{Domain, Output, Scene, Space};
 
 /// A rule that a scene breaks, at the field of a path.
@@ -30,8 +31,10 @@ pub(crate) struct Rules<'a> {
     /// The folder that relative paths start from.
     folder: &'a Path,
     space: Space,
-    /// Whether the grains' law is `SpringDashpot`.
-    springs: bool,
+    /// Name of the grains' law.
+    law: &'static str,
+    /// Names of all materials, that of the grains first.
+    materials: Vec<String>,
     pub refusals: Vec<Refusal>,
 }
 
@@ -43,7 +46,8 @@ impl<'a> Rules<'a> {
         Rules {
             folder,
             space: Space::Space,
-            springs: false,
+            law: "",
+            materials: Vec::new(),
             refusals: Vec::new(),
         }
     }
@@ -54,7 +58,7 @@ impl<'a> Rules<'a> {
             None | Some(RawSpace::Space) => Space::Space,
             Some(RawSpace::Plane) => Space::Plane,
         };
-        self.springs = matches!(raw.grains.law, RawLaw::SpringDashpot { .. });
+        self.law = raw.grains.law.name();
         let gravity = raw.gravity.map_or(GRAVITY, |gravity| gravity.0);
         if gravity < 0.0 {
             self.refuse(
@@ -80,7 +84,8 @@ impl<'a> Rules<'a> {
             &domain,
         );
         if let (Some(grains), Some(initial)) = (&grains, &initial) {
-            self.sizes_are_drawn(grains, initial);
+            self.mixture_fits(grains, initial, &inlets);
+            self.pairs_are_there(grains, &walls);
         }
         let watered = raw.water.is_some();
         let water = raw.water.and_then(|water| {
@@ -125,6 +130,11 @@ impl<'a> Rules<'a> {
         self.stillness(&scene);
         self.bed_has_fallen(&scene);
         Some(scene)
+    }
+
+    /// True if the grains turn: all laws but `Repulsion` need it.
+    fn spins(&self) -> bool {
+        self.law != "Repulsion"
     }
 
     fn refuse(

@@ -91,10 +91,13 @@ impl Rules<'_> {
             integrator,
             Integrator::VerletAveraged { .. } | Integrator::DashpotImplicit { .. }
         );
-        if solves && self.springs {
+        if solves && self.spins() {
             self.refuse(
                 "time.integrator",
-                "this scheme solves for velocities, not for spins, so it is not for law SpringDashpot",
+                format!(
+                    "this scheme solves for velocities, not for spins, so it is not for law {}",
+                    self.law
+                ),
                 "write SymplecticEuler, VerletOld or ExplicitEuler",
             );
         }
@@ -125,7 +128,7 @@ impl Rules<'_> {
                 "remove it, or write frames: true",
             );
         }
-        if output.energies && self.springs {
+        if output.energies && self.spins() {
             self.refuse(
                 "output.energies",
                 "the energies of springs that slip are not tallied yet: their books are not kept",

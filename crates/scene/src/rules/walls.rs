@@ -15,7 +15,7 @@ impl Rules<'_> {
             if shape.wall_grains().is_some() {
                 self.of_grains(&path, &raw);
             }
-            let remedy = if self.springs {
+            let remedy = if self.spins() {
                 "1 returns all the speed; leave the field out for the grains' own damping"
             } else {
                 "1 returns all the speed; leave the field out for a wall without damping"
@@ -26,6 +26,10 @@ impl Rules<'_> {
             let friction = raw.friction.map(|friction| {
                 self.not_negative(&format!("{path}.friction"), "the friction", friction.0)
             });
+            let material = raw
+                .material
+                .as_ref()
+                .and_then(|name| self.wall_material(&path, name, &raw));
             let removed = match raw.removed {
                 None | Some(RawRemoval::Never) => Removal::Never,
                 Some(RawRemoval::WhenStill) => Removal::WhenStill,
@@ -48,6 +52,7 @@ impl Rules<'_> {
             walls.push(Wall {
                 name: raw.name,
                 shape,
+                material,
                 restitution,
                 friction,
                 touches_at,
@@ -60,7 +65,7 @@ impl Rules<'_> {
 
     /// Refuses what a body built of grains has not: grains touch it as they touch each other.
     fn of_grains(&mut self, path: &str, raw: &RawWall) {
-        if self.springs {
+        if self.spins() {
             self.refuse(
                 format!("{path}.shape.surface"),
                 "a body built of grains is made for law Repulsion",

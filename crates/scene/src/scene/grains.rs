@@ -2,19 +2,25 @@
 
 use std::f64::consts::PI;
 
-use super::SpringDashpot;
+use super::{HertzMindlin, SpringDashpot};
 
 /// The grain at coarse level n = 0, and how it is softened and coarsened.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grains {
-    /// Diameter, m, at n = 0; of several sizes the largest.
+    /// Diameter, m, at n = 0; of several populations the largest.
     pub diameter: f64,
     /// Mass of one grain of that diameter, kg, at n = 0 (from the density if the scene gives that).
     pub mass: f64,
-    /// The sizes of a mixture in the order of the file; empty for grains of one size.
-    pub sizes: Vec<Size>,
+    /// Name of their material, number 0 of all.
+    pub material: String,
+    /// The populations of a mixture in the order of the file; empty for grains all alike.
+    pub populations: Vec<Population>,
     /// The law between grains, constants at n = 0 and before softening.
     pub law: Law,
+    /// Further materials, numbers 1 and up, with the law between grains of each; all laws are the same but for constants.
+    pub materials: Vec<Material>,
+    /// What unlike materials make of each other; every pair that can meet is there.
+    pub pairs: Vec<PairOf>,
     /// The stiffness of law `Repulsion` is divided by this, at least 1; 1 with any other law.
     pub soften: f64,
     /// What softening does to the damping.
@@ -26,6 +32,28 @@ pub struct Grains {
 }
 
 impl Grains {
+    /// Name of a material by its number.
+    pub fn material_name(&self, number: usize) -> &str {
+        match number {
+            0 => &self.material,
+            more => self.materials.get(more - 1).map_or("", |m| &m.name),
+        }
+    }
+
+    /// Law between two grains of a material.
+    pub fn law_of(&self, material: usize) -> &Law {
+        match material {
+            0 => &self.law,
+            more => self.materials.get(more - 1).map_or(&self.law, |m| &m.law),
+        }
+    }
+
+    /// What two unlike materials make of each other, in either order.
+    pub fn pair_of(&self, a: usize, b: usize) -> Option<&PairOf> {
+        let of = [a.min(b), a.max(b)];
+        self.pairs.iter().find(|pair| pair.of == of)
+    }
+
     /// Volume of one grain at n = 0, m³.
     pub fn volume(&self) -> f64 {
         PI / 6.0 * self.diameter.powi(3)
@@ -42,13 +70,39 @@ impl Grains {
     }
 }
 
-/// One of the sizes of a mixture; all have the density of the grains.
+/// One of the populations of a mixture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Size {
-    /// Diameter, m, no two alike and the largest that of the grains.
+pub struct Population {
+    /// Diameter, m, at n = 0; the largest is that of the grains.
     pub diameter: f64,
+    /// Density, kg/m³.
+    pub density: f64,
     /// Share of the mass of all grains, above zero; they add up to 1 within 1e-6.
     pub share: f64,
+    /// Number of its material.
+    pub material: usize,
+}
+
+/// A material beside that of the grains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Its name, unlike any other.
+    pub name: String,
+    /// The law between two grains of it.
+    pub law: Law,
+}
+
+/// A pair of unlike materials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairOf {
+    /// Numbers of the materials, the smaller first.
+    pub of: [usize; 2],
+    /// Restitution in (0, 1]; `None` only with law `SpringDashpot`: the mean of their dampings in series.
+    pub restitution: Option<f64>,
+    /// Friction, not negative; 0 with law `Repulsion`, which has none.
+    pub friction: f64,
+    /// Rolling friction, not negative; present exactly if the laws resist rolling.
+    pub rolling_friction: Option<f64>,
 }
 
 /// A contact law with its constants.
@@ -63,6 +117,19 @@ pub enum Law {
     },
     /// Springs and dashpots with friction, for grains that turn.
     SpringDashpot(SpringDashpot),
+    /// Elastic spheres with friction, for grains that turn.
+    HertzMindlin(HertzMindlin),
+}
+
+impl Law {
+    /// Its name in a scene.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Law::Repulsion { .. } => "Repulsion",
+            Law::SpringDashpot(_) => "SpringDashpot",
+            Law::HertzMindlin(_) => "HertzMindlin",
+        }
+    }
 }
 
 /// The stiffness of law `Repulsion`.

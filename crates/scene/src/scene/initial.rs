@@ -65,6 +65,8 @@ pub struct StartingGrain {
     pub at: DVec3,
     /// Its velocity, m/s.
     pub velocity: DVec3,
+    /// Number of its population, 0 if there is but one.
+    pub population: usize,
 }
 
 /// A bed that falls together from a lattice above a fixed row; it fills the periodic x, and in space the periodic y.

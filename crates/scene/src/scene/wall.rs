@@ -13,9 +13,11 @@ pub struct Wall {
     pub name: String,
     /// Its surface.
     pub shape: Shape,
-    /// Restitution in (0, 1]; `None`: elastic, without damping, or built of grains.
+    /// Number of its material; `None`: touched by the grains' own law, with the restitution and the friction below.
+    pub material: Option<usize>,
+    /// Restitution in (0, 1]; `None`: elastic, without damping, built of grains, or of a material.
     pub restitution: Option<f64>,
-    /// Coefficient of kinetic friction; `None`: smooth, or built of grains.
+    /// Coefficient of kinetic friction; `None`: smooth, built of grains, or of a material.
     pub friction: Option<f64>,
     /// Where a grain touches it.
     pub touches_at: TouchesAt,

@@ -80,8 +80,11 @@ fn grains() -> impl Strategy<Value = Grains> {
                 Grains {
                     diameter,
                     mass,
-                    sizes: Vec::new(),
+                    material: "grains".into(),
+                    populations: Vec::new(),
                     law,
+                    materials: Vec::new(),
+                    pairs: Vec::new(),
                     soften,
                     softened_damping,
                     coarse,
@@ -114,7 +117,11 @@ fn time() -> impl Strategy<Value = Time> {
 }
 
 fn initial() -> impl Strategy<Value = Initial> {
-    let grain = (vector(), vector()).prop_map(|(at, velocity)| StartingGrain { at, velocity });
+    let grain = (vector(), vector()).prop_map(|(at, velocity)| StartingGrain {
+        at,
+        velocity,
+        population: 0,
+    });
     let room = prop_oneof![
         region().prop_map(|region| (Some(region), None)),
         mesh_file().prop_map(|mesh| (None, Some(mesh))),

@@ -11,6 +11,8 @@ use super::size;
 #[derive(Clone, Debug)]
 pub struct Springs {
     law: SpringDashpot,
+    /// Elastic spheres of one or two materials instead, and what the two make of each other.
+    hertz: Option<([HertzMindlin; 2], Option<PairOf>)>,
     /// Ratios of the smaller diameters to the largest, and the parts of the mass of all.
     mixture: Option<Vec<(f64, f64)>>,
     bed: Option<Bed>,
@@ -24,17 +26,58 @@ pub struct Springs {
 pub fn springs() -> impl Strategy<Value = Springs> {
     let mixture = vec((0.01_f64..0.99, 0.1_f64..1.0), 1..4);
     let parts = (1.01_f64..5.0, any::<bool>(), 0.0_f64..1.0);
-    (law(), of(mixture), of(bed()), of(water()), parts).prop_map(
-        |(law, mixture, bed, water, (heavier, plane, skip))| Springs {
-            law,
-            mixture,
-            bed,
-            water,
-            heavier,
-            plane,
-            skip,
-        },
+    (
+        law(),
+        of(hertz()),
+        of(mixture),
+        of(bed()),
+        of(water()),
+        parts,
     )
+        .prop_map(
+            |(law, hertz, mixture, bed, water, (heavier, plane, skip))| Springs {
+                law,
+                hertz,
+                mixture,
+                bed,
+                water,
+                heavier,
+                plane,
+                skip,
+            },
+        )
+}
+
+/// Two materials that resist rolling alike, and their pair if the second is there.
+fn hertz() -> impl Strategy<Value = ([HertzMindlin; 2], Option<PairOf>)> {
+    let one = (size(), -0.99_f64..0.5, 1e-6_f64..=1.0, 0.0_f64..2.0, size());
+    let by = prop_oneof![Just(Resistance::ElasticPlastic), Just(Resistance::Constant)];
+    ([one.clone(), one], of(by), any::<bool>()).prop_map(|(two, by, both)| {
+        let laws = two.map(
+            |(young, poisson, restitution, friction, rolling)| HertzMindlin {
+                young,
+                poisson,
+                restitution,
+                friction,
+                rolling: by.map(|by| RollingResistance {
+                    friction: rolling,
+                    damping: match by {
+                        Resistance::ElasticPlastic => rolling,
+                        // What the program takes where the scene may not say.
+                        Resistance::Constant => 0.3,
+                    },
+                    by,
+                }),
+            },
+        );
+        let pair = PairOf {
+            of: [0, 1],
+            restitution: Some(laws[0].restitution),
+            friction: laws[1].friction,
+            rolling_friction: by.map(|_| 0.1),
+        };
+        (laws, both.then_some(pair))
+    })
 }
 
 /// A scene without walls and gates, whose grains are those of the springs.
@@ -52,6 +95,16 @@ pub fn of_springs(mut scene: Scene, springs: Springs) -> Scene {
         scene.time.integrator = Integrator::SymplecticEuler;
     }
     scene.grains.law = Law::SpringDashpot(springs.law);
+    if let Some(([own, other], pair)) = springs.hertz {
+        scene.grains.law = Law::HertzMindlin(own);
+        if let Some(pair) = pair {
+            scene.grains.materials = vec![Material {
+                name: "steel".into(),
+                law: Law::HertzMindlin(other),
+            }];
+            scene.grains.pairs = vec![pair];
+        }
+    }
     scene.grains.soften = 1.0;
     scene.grains.softened_damping = SoftenedDamping::Kept;
     // What is placed in a box is inside the periods.
@@ -86,19 +139,25 @@ pub fn of_springs(mut scene: Scene, springs: Springs) -> Scene {
         } else {
             scene.grains.mass = springs.heavier * scene.grains.volume();
         }
-        scene.grains.sizes = sizes(&mixture, scene.grains.diameter);
+        scene.grains.populations =
+            populations(&mixture, scene.grains.diameter, scene.grains.density());
+        if let Some(last) = scene.grains.populations.last_mut() {
+            last.material = scene.grains.materials.len();
+        }
     }
     scene
 }
 
-fn sizes(mixture: &[(f64, f64)], largest: f64) -> Vec<Size> {
+fn populations(mixture: &[(f64, f64)], largest: f64, density: f64) -> Vec<Population> {
     let parts = || std::iter::once(&(1.0, 0.5)).chain(mixture);
     let sum: f64 = parts().map(|(_, part)| part).sum();
-    let sizes = parts().map(|(ratio, part)| Size {
+    let populations = parts().map(|(ratio, part)| Population {
         diameter: largest * ratio,
+        density,
         share: part / sum,
+        material: 0,
     });
-    sizes.collect()
+    populations.collect()
 }
 
 fn law() -> impl Strategy<Value = SpringDashpot> {

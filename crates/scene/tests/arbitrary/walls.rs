@@ -28,6 +28,7 @@ pub fn wall() -> impl Strategy<Value = Wall> {
                 let mut wall = Wall {
                     name: String::new(),
                     shape,
+                    material: None,
                     restitution,
                     friction,
                     touches_at,

@@ -90,6 +90,18 @@ fn stiffness(scene: &Scene) -> Option<Knob> {
                 },
             })
         }
+        Law::HertzMindlin(law) => {
+            let by = |factor: f64| {
+                let cost = if follows { factor.sqrt() } else { 1.0 };
+                let set = format!("grains.law.young={:e} Pa", law.young * factor);
+                notch(format!("E × {factor}"), set, cost)
+            };
+            Some(Knob {
+                name: "stiffness",
+                coarser: vec![by(0.1)],
+                finer: vec![by(10.0)],
+            })
+        }
         Law::SpringDashpot(law) => match law.constants {
             SpringConstants::FromRestitution {
                 normal_stiffness, ..
