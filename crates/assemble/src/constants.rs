@@ -18,6 +18,8 @@ pub struct Constants {
     pub kind: Kind,
     /// The kinds of a mixture in the order of the scene's populations; empty for one kind. `kind` is the largest.
     pub populations: Vec<Kind>,
+    /// Share of the mass of each.
+    pub shares: Vec<f64>,
     /// The lightest kind, whose contacts are the quickest.
     pub quickest: Kind,
     /// Grains that no force moves, of a bed's fixed row; `None` if there are none.
@@ -95,6 +97,7 @@ impl Constants {
         let bed = matches!(scene.initial, scene::Initial::Bed(_));
         let mut constants = Self {
             kind,
+            shares: grains.populations.iter().map(|one| one.share).collect(),
             populations,
             quickest,
             fixed: bed.then_some(Kind {
@@ -115,6 +118,15 @@ impl Constants {
             constants.shorten_step();
         }
         Ok(constants)
+    }
+
+    /// Mean diameter of the grains by mass, m.
+    pub(crate) fn mean_diameter(&self) -> f64 {
+        if self.populations.is_empty() {
+            return self.kind.diameter();
+        }
+        let kinds = self.populations.iter().zip(&self.shares);
+        kinds.map(|(kind, share)| share * kind.diameter()).sum()
     }
 
     /// Diameter of a kind by its number, m: a population, or the only one.

@@ -5,8 +5,8 @@ use crate::grain::{clear_water, sediment};
 use crate::water::friction_velocity;
 use std::sync::Arc;
 use tsubu_measure::{
-    Balance, BedLoad, BedLoadOptions, Conveying, ConveyingOptions, Energy, Flow, Heap, HeapOptions,
-    Loads, Slices, Structure,
+    Balance, BedLoad, BedLoadOptions, Conveying, ConveyingOptions, Discharge, DischargeOptions,
+    Energy, Flow, Heap, HeapOptions, Loads, Opening, Slices, Structure,
 };
 use tsubu_model::{Dim, Domain, Observer, SpinState, Surface, Vector};
 use tsubu_scene as scene;
@@ -46,6 +46,29 @@ fn conveying_of<D: Dim>(
         hopper: wanted.hopper.map(|hopper| [hopper.min, hopper.max]),
         density: scene.grains.density(),
     }))
+}
+
+/// The measures of a hopper that empties.
+fn discharge_of<D: Dim>(
+    wanted: &scene::Discharge,
+    constants: &Constants,
+    domain: &Domain<D>,
+) -> DischargeOptions {
+    let diameter = constants.mean_diameter();
+    let depth = if D::V::AXES == 3 {
+        domain.period.axis(1)
+    } else {
+        diameter
+    };
+    DischargeOptions {
+        outlet: wanted.outlet,
+        opening: match wanted.opening {
+            scene::Opening::Circle(width) => Opening::Circle(width),
+            scene::Opening::Slot(width) => Opening::Slot { width, depth },
+        },
+        bin: [wanted.bin.min, wanted.bin.max],
+        diameter,
+    }
 }
 
 /// The transport of a bed, beside the relations of the books.
@@ -124,6 +147,11 @@ pub(crate) fn observers_of<D: Slices, S: SpinState>(
     if let Some(wanted) = &scene.measures.conveying {
         let conveying = conveying_of(scene, wanted, surfaces);
         observers.extend(conveying.map(|c| Box::new(c) as Box<dyn Observer<D, S>>));
+    }
+    if let Some(wanted) = &scene.measures.discharge {
+        observers.push(Box::new(Discharge::new(discharge_of(
+            wanted, constants, domain,
+        ))));
     }
     observers.extend(
         bed_load_of(scene, constants, domain).map(|o| Box::new(o) as Box<dyn Observer<D, S>>),

@@ -51,11 +51,11 @@ pub use check::Checked;
 pub use error::SceneError;
 pub use grain_file::GrainFile;
 pub use scene::{
-    Axis, Bed, BedMeasure, Begin, CoarseRule, Conveying, Course, Damping, Datum, Domain, End, Fate,
-    Fill, Flow, FlowProfile, Grains, Hand, HertzMindlin, Initial, Inlet, Integrator, Law, Material,
-    Measures, MeshFile, MeshSurface, Motion, NormalForce, Outlet, Output, PairOf, Population,
-    Region, Removal, Resistance, RollingResistance, Scene, Shape, Shift, Slip, SoftenedDamping,
-    Space, SpringConstants, SpringDashpot, StartingGrain, Step, Stiffness, Still, Tension, Thin,
-    Time, TouchesAt, Turbulence, Turn, Wall, Water,
+    Axis, Bed, BedMeasure, Begin, CoarseRule, Conveying, Course, Damping, Datum, Discharge, Domain,
+    End, Fate, Fill, Flow, FlowProfile, Grains, Hand, HertzMindlin, Initial, Inlet, Integrator,
+    Law, Material, Measures, MeshFile, MeshSurface, Motion, NormalForce, Opening, Outlet, Output,
+    PairOf, Population, Region, Removal, Resistance, RollingResistance, Scene, Shape, Shift, Slip,
+    SoftenedDamping, Space, SpringConstants, SpringDashpot, StartingGrain, Step, Stiffness, Still,
+    Tension, Thin, Time, TouchesAt, Turbulence, Turn, Wall, Water,
 };
 pub use source::Source;

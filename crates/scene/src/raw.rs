@@ -9,7 +9,10 @@ mod water;
 
 use serde::Deserialize;
 
-pub(crate) use flow::{RawBedMeasure, RawConveying, RawFate, RawInlet, RawMeasures, RawOutlet};
+pub(crate) use flow::{
+    RawBedMeasure, RawConveying, RawDischarge, RawFate, RawInlet, RawMeasures, RawOpening,
+    RawOutlet,
+};
 pub(crate) use grains::{
     RawCoarseRule, RawConstants, RawDamping, RawGrains, RawLaw, RawMaterial, RawNormalForce,
     RawPairOf, RawPopulation, RawResistance, RawRolling, RawSlip, RawSoftenedDamping, RawStiffness,
@@ -95,6 +98,7 @@ pub(crate) const CHOICES: &[(&str, &[&str])] = &[
     ("removed", &["Never", "WhenStill", "At"]),
     ("begins", &["WhenStill", "At"]),
     ("then", &["Delete", "Recycle"]),
+    ("opening", &["Circle", "Slot"]),
     ("turbulence", &["Off", "Switched"]),
     ("datum", &["Renewed", "Frozen", "Given"]),
     ("coarse_drag", &["ByVolume"]),
@@ -286,6 +290,7 @@ mod tests {
             accepted::<RawRemoval>(),
             accepted::<RawBegin>(),
             accepted::<RawFate>(),
+            accepted::<RawOpening>(),
             accepted::<RawTurbulence>(),
             accepted::<RawDatum>(),
             accepted::<water::RawCoarseDrag>(),

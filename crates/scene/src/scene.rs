@@ -10,7 +10,7 @@ mod springs;
 mod wall;
 mod water;
 
-pub use flow::{BedMeasure, Conveying, Fate, Inlet, Measures, Outlet, Region};
+pub use flow::{BedMeasure, Conveying, Discharge, Fate, Inlet, Measures, Opening, Outlet, Region};
 pub use grains::{
     CoarseRule, Damping, Grains, Law, Material, PairOf, Population, SoftenedDamping, Stiffness,
 };

@@ -135,6 +135,9 @@ pub fn result(summary: &Summary) -> String {
                 give(error, 3)
             )
         });
+        let theory = find("ratio_to_beverloo").map_or(theory, |(ratio, error)| {
+            format!(", {ratio:.3}{} of Beverloo's rate", give(error, 3))
+        });
         // The share of the runs whose rate was steady.
         let steady = if number("steady") == 1.0 {
             ""

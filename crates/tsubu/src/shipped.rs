@@ -11,11 +11,25 @@ struct Shipped {
     files: &'static [(&'static str, &'static [u8])],
 }
 
-const SCENES: [Shipped; 5] = [
+const SCENES: [Shipped; 6] = [
     Shipped {
         name: "angle_of_repose",
         text: include_str!("../../../scenarios/angle_of_repose.ron"),
         files: &[],
+    },
+    Shipped {
+        name: "hopper",
+        text: include_str!("../../../scenarios/hopper.ron"),
+        files: &[
+            (
+                "meshes/cone.stl",
+                include_bytes!("../../../scenarios/meshes/cone.stl"),
+            ),
+            (
+                "meshes/cone_inside.stl",
+                include_bytes!("../../../scenarios/meshes/cone_inside.stl"),
+            ),
+        ],
     },
     Shipped {
         name: "movable_bed",

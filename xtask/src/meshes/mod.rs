@@ -1,4 +1,4 @@
-//! `cargo xtask meshes`: the STL files of the screw feeder, written from the numbers of paper A.
+//! `cargo xtask meshes`: the STL files of the screw feeder, written from the numbers of paper A, and of the hopper.
 //!
 //! Lengths in mm, the screw's axis is the x axis, z is up. The right-handed screw conveys towards +x
 //! when it turns *clockwise* seen from the outlet, that is by a negative angle about +x: its faces
@@ -6,6 +6,7 @@
 //! carried by −p·α/2π: one pitch towards +x for every turn of −2π.
 
 mod feeder;
+mod hopper;
 
 use std::fs;
 use std::path::Path;
@@ -42,7 +43,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
 }
 
 /// Every file: its name and its closed shells in m.
-fn files() -> Result<[(&'static str, Vec<Shell>); 7], String> {
+fn files() -> Result<[(&'static str, Vec<Shell>); 9], String> {
     let screw = feeder::screw().map_err(|e| e.to_string())?;
     let section = feeder::screw_section().map_err(|e| e.to_string())?;
     Ok([
@@ -53,6 +54,8 @@ fn files() -> Result<[(&'static str, Vec<Shell>); 7], String> {
         ("fill", feeder::fill().map_err(|e| e.to_string())?),
         ("hopper_full", vec![feeder::wide_hopper()]),
         ("fill_full", vec![feeder::wide_fill()]),
+        ("cone", vec![hopper::hopper(feeder::CHORD)]),
+        ("cone_inside", vec![hopper::inside(feeder::CHORD)]),
     ])
 }
 
@@ -149,6 +152,8 @@ mod tests {
                 * ((338.0 * 249.6 + 4.0 * 779.0 * 634.8 + 1220.0 * 1020.0)
                     - (318.0 * 229.6 + 4.0 * 759.0 * 614.8 + 1200.0 * 1000.0)),
             1150.0 / 6.0 * (280.0 * 190.0 + 4.0 * 690.0 * 550.0 + 1100.0 * 910.0),
+            hopper::volumes()[0] * 1e9,
+            hopper::volumes()[1] * 1e9,
         ];
         for ((name, shells), expected) in files().unwrap().into_iter().zip(expected) {
             // Each shell by itself first: a gap must not be mended by a neighbour's edge.

@@ -38,6 +38,22 @@ pub(crate) struct RawInlet {
 pub(crate) struct RawMeasures {
     pub conveying: Option<RawConveying>,
     pub bed: Option<RawBedMeasure>,
+    pub discharge: Option<RawDischarge>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "discharge")]
+pub(crate) struct RawDischarge {
+    pub outlet: String,
+    pub opening: RawOpening,
+    pub bin: RawRegion,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "opening")]
+pub(crate) enum RawOpening {
+    Circle(Quantity<Length>),
+    Slot(Quantity<Length>),
 }
 
 #[derive(Deserialize)]

@@ -3,7 +3,7 @@
 use std::fmt::{Result, Write};
 
 use super::{quantity, region, text};
-use crate::scene::{Conveying, Fate, Scene};
+use crate::scene::{Conveying, Fate, Opening, Scene};
 use crate::units::Dimension;
 
 impl Scene {
@@ -36,6 +36,19 @@ impl Scene {
         writeln!(out, "    measures: (")?;
         if let Some(bed) = &self.measures.bed {
             writeln!(out, "        bed: (skip: {:?}),", bed.skip)?;
+        }
+        if let Some(discharge) = &self.measures.discharge {
+            let outlet = self.outlets.get(discharge.outlet).map_or("", |o| &o.name);
+            let opening = match discharge.opening {
+                Opening::Circle(width) => format!("Circle({})", quantity(Dimension::Length, width)),
+                Opening::Slot(width) => format!("Slot({})", quantity(Dimension::Length, width)),
+            };
+            writeln!(
+                out,
+                "        discharge: (outlet: {}, opening: {opening}, bin: ({})),",
+                text(outlet),
+                region(&discharge.bin)
+            )?;
         }
         if let Some(conveying) = &self.measures.conveying {
             self.write_conveying(conveying, out)?;

@@ -1,8 +1,11 @@
 //! The rules of the measures that a scene asks for.
 
 use super::Rules;
-use crate::raw::{RawBedMeasure, RawConveying, RawMeasures};
-use crate::scene::{BedMeasure, Conveying, Domain, Measures, Outlet, Shape, Space, Wall};
+use crate::quantity::{Length, Quantity};
+use crate::raw::{RawBedMeasure, RawConveying, RawDischarge, RawMeasures, RawOpening};
+use crate::scene::{
+    Axis, BedMeasure, Conveying, Discharge, Domain, Measures, Opening, Outlet, Shape, Space, Wall,
+};
 
 /// Share of the flow's time that is dropped when the scene does not say.
 const SKIP: f64 = 0.25;
@@ -18,9 +21,18 @@ impl Rules<'_> {
     ) -> Measures {
         let conveying = raw.and_then(|raw| raw.conveying.as_ref());
         let bed = raw.and_then(|raw| raw.bed);
+        let discharge = raw.and_then(|raw| raw.discharge.as_ref());
+        if let (Some(_), Some(_)) = (conveying, discharge) {
+            self.refuse(
+                "measures.discharge",
+                "a scene measures one rate: that of a screw or that of a hopper",
+                "remove discharge, or conveying",
+            );
+        }
         Measures {
             conveying: conveying.map(|raw| self.conveying(raw, walls, outlets, domain)),
             bed: self.bed_measure(bed, water),
+            discharge: discharge.map(|raw| self.discharge(raw, outlets, domain)),
         }
     }
 
@@ -42,6 +54,38 @@ impl Rules<'_> {
             );
         }
         water.then_some(BedMeasure { skip })
+    }
+
+    fn discharge(&mut self, raw: &RawDischarge, outlets: &[Outlet], domain: &Domain) -> Discharge {
+        let path = |field: &str| format!("measures.discharge.{field}");
+        let names = outlets.iter().map(|outlet| outlet.name.as_str());
+        let outlet = self.found(&path("outlet"), "outlet", &raw.outlet, names);
+        let mut width = |length: Quantity<Length>| {
+            self.above_zero(&path("opening[0]"), "the width of the opening", length.0)
+        };
+        let opening = match raw.opening {
+            RawOpening::Circle(diameter) => Opening::Circle(width(diameter)),
+            RawOpening::Slot(across) => Opening::Slot(width(across)),
+        };
+        let deep = self.space == Space::Plane || domain.y != Axis::Open;
+        match opening {
+            Opening::Circle(_) if self.space == Space::Plane => self.refuse(
+                path("opening"),
+                "a plane scene has no circular opening",
+                "write Slot(\"…\"), or space: Space",
+            ),
+            Opening::Slot(_) if !deep => self.refuse(
+                path("opening"),
+                "a slot is as deep as the scene, but the axis y does not repeat",
+                "write y: Periodic(\"…\") in the domain, or Circle(\"…\")",
+            ),
+            _ => {}
+        }
+        Discharge {
+            outlet: outlet.unwrap_or(0),
+            opening,
+            bin: self.region(&path("bin"), "box", &raw.bin),
+        }
     }
 
     fn conveying(

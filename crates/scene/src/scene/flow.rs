@@ -66,6 +66,28 @@ pub struct Measures {
     pub conveying: Option<Conveying>,
     /// How the transport of a bed is measured; present exactly when there is water.
     pub bed: Option<BedMeasure>,
+    /// How a hopper empties.
+    pub discharge: Option<Discharge>,
+}
+
+/// What the measure of a hopper needs to know of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Discharge {
+    /// The place in [`Scene::outlets`](super::Scene::outlets) of the outlet under the opening.
+    pub outlet: usize,
+    /// The opening.
+    pub opening: Opening,
+    /// A box over the opening inside the bin, which counts as full at the start of the flow.
+    pub bin: Region,
+}
+
+/// The opening of a hopper.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Opening {
+    /// A circle of this diameter, m, above zero.
+    Circle(f64),
+    /// A slot of this width, m, above zero, as deep as the scene: y is periodic, or the scene is plane.
+    Slot(f64),
 }
 
 /// How the transport of a bed is averaged.
