@@ -125,7 +125,8 @@ pub(crate) fn observers_of<D: Slices, S: SpinState>(
     let mut observers: Vec<Box<dyn Observer<D, S>>> = Vec::new();
     let depth = (D::V::AXES == 3 && domain.is_periodic(1)).then(|| domain.period.axis(1));
     let removed = scene.walls.iter().find(|w| w.removed != Removal::Never);
-    if let Some(removed) = removed {
+    // A gate that lets a hopper empty leaves no heap.
+    if let Some(removed) = removed.filter(|_| scene.measures.discharge.is_none()) {
         // A wall that stays and looks along x is the back, one that looks against it the far end.
         let upright = |sign: f64| {
             scene.walls.iter().find_map(|w| {

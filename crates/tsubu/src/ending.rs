@@ -65,6 +65,7 @@ pub fn summary(
     summary.plain("grains_inserted", count.inserted as f64, "");
     summary.plain("grains_deleted", count.deleted as f64, "");
     summary.plain("grains_lost", count.lost() as f64, "");
+    summary.plain("spin", f64::from(u8::from(plan.constants.law.turns())), "");
     if let Some(spent) = spent {
         summary.plain("grain_steps_per_second", spent.rate(run), "1/s");
         summary.plain("wall_time", spent.wall.as_secs_f64(), "s");
@@ -162,9 +163,14 @@ pub fn result(summary: &Summary) -> String {
     }
     match (measured("angle_of_repose"), find("released_at")) {
         (Some((angle, error)), Some((released, _))) => format!(
-            "Angle of repose {angle:.1}{} deg, {:.2} s after the wall's removal; no theory gives it: grains of this law creep, so the angle goes on falling.",
+            "Angle of repose {angle:.1}{} deg, {:.2} s after the wall's removal; no theory gives it{}.",
             give(error, 1),
-            number("time") - released
+            number("time") - released,
+            if number("spin") == 1.0 {
+                ""
+            } else {
+                ": grains of this law creep, so the angle goes on falling"
+            }
         ),
         _ => format!(
             "{} grains, {:.4} s of simulated time.",

@@ -187,6 +187,7 @@ fn repulsion() -> impl Strategy<Value = Scene> {
             let measures = Measures {
                 conveying: conveying.and_then(|measure| fitting(measure, &walls, outlets.len())),
                 bed: None,
+                discharge: None,
             };
             let still = walls.iter().any(waits).then_some(Still {
                 kinetic_energy: 1e-4,

@@ -1,10 +1,13 @@
 //! Suite `hertz`: law Hertz–Mindlin through the engine, against closed forms, a published benchmark and measurements.
 
 mod angles;
+mod bulk;
 mod coarse;
+mod column;
 mod curves;
 mod elastic;
 mod grazing;
+mod hoppers;
 mod impact;
 mod lab;
 mod on_wall;
@@ -17,8 +20,9 @@ mod theory;
 
 use super::report::Report;
 
-/// Grain-steps of `--full`: the short version and the curves of the figures.
-pub const FULL_GRAIN_STEPS: f64 = 6e7;
+/// Grain-steps of `--full`: the short version and the curves of the figures, two columns, three silos, a rectangular hopper and four
+/// bins.
+pub const FULL_GRAIN_STEPS: f64 = 2.5e9;
 
 /// Every check.
 pub fn run(report: &mut Report) -> Result<(), String> {
@@ -39,6 +43,18 @@ pub fn run(report: &mut Report) -> Result<(), String> {
     report.progress("piles of three");
     coarse::run(report)?;
     report.progress("coarse grains");
+    column::small_heap(report)?;
+    report.progress("a heap in the plane");
+    if !report.full() {
+        return Ok(());
+    }
+    column::collapse(report)?;
+    report.progress("column collapse");
+    hoppers::janssen(report)?;
+    report.progress("silo");
+    hoppers::rectangular(report)?;
+    report.progress("rectangular hopper");
+    hoppers::beverloo(report)?;
     Ok(())
 }
 

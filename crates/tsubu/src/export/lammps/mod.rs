@@ -35,8 +35,19 @@ struct Parts {
 /// The deck of a scene.
 pub fn deck(ready: &Ready) -> Result<Deck, SceneError> {
     let parts = match &ready.constants.law {
-        Law::Repulsion { law, walls, .. } => repulsion::parts(ready, law, walls)?,
-        Law::SpringDashpot { law, walls } => springs::parts(ready, law, walls)?,
+        Law::Repulsion(of) => {
+            let walls: Vec<_> = of.walls.iter().map(|wall| wall.laws()[0]).collect();
+            repulsion::parts(ready, of.law(), &walls)?
+        }
+        Law::SpringDashpot(of) => {
+            let walls: Vec<_> = of.walls.iter().map(|wall| wall.laws()[0]).collect();
+            springs::parts(ready, of.law(), &walls)?
+        }
+        Law::HertzMindlin(_) | Law::HertzMindlinRolling(_) => {
+            let what = "has a law of Hertz and Mindlin, but with another damping: the restitution would not be the one asked for";
+            let remedy = "write law SpringDashpot or Repulsion";
+            return Err(ready.refuse("grains.law", what, remedy));
+        }
     };
     let timeline = Timeline::of(ready)?;
     let mut lines = head(ready, &parts);

@@ -33,11 +33,14 @@ struct Wall {
 
 /// The deck of a scene.
 pub fn deck(ready: &Ready) -> Result<Deck, SceneError> {
-    let Law::SpringDashpot { law, walls: laws } = &ready.constants.law else {
-        let what = "has no such law as Repulsion: its grains turn";
-        let remedy = "write law SpringDashpot, or write the scene for LAMMPS (tsubu export lammps)";
+    let Law::SpringDashpot(of) = &ready.constants.law else {
+        let what = "is written for law SpringDashpot only: it has none like Repulsion, and its law of Hertz and Mindlin damps otherwise";
+        let remedy = "write law SpringDashpot, or write a scene of law Repulsion for LAMMPS (tsubu export lammps)";
         return Err(ready.refuse("grains.law", what, remedy));
     };
+    let law = of.law();
+    let laws: Vec<_> = of.walls.iter().map(|wall| wall.laws()[0]).collect();
+    let laws = &laws[..];
     refuse_readings(ready, law)?;
     let timeline = Timeline::of(ready)?;
     if timeline.damping() != 1.0 {
