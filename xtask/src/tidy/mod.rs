@@ -5,6 +5,7 @@
 
 mod arrows;
 mod copies;
+mod laws;
 mod licences;
 mod manifest;
 mod map;
@@ -69,6 +70,7 @@ const CHECKS: &[Check] = &[
         "laws and rules name sources that the bibliography has",
         sources::keys,
     ),
+    ("laws are named at home only", laws::named_at_home),
     ("no place of one machine, no registry host", words::places),
     (
         "docs/architecture.md names every crate and only what exists",
