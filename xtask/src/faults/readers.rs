@@ -109,7 +109,7 @@ pub const READERS: &[Reader] = &[
             let text = String::from_utf8_lossy(input);
             [Space::Space, Space::Plane]
                 .into_iter()
-                .any(|space| GrainFile::parse("input.csv", &text, 1e-3, space).is_ok())
+                .any(|space| GrainFile::parse("input.csv", &text, &[1e-3], space).is_ok())
         },
     },
     Reader {
