@@ -48,9 +48,10 @@ print("seconds %.6f" % (time.time() - start))
 pub fn write(folder: &Path, case: &Case) -> Result<(), String> {
     let checked = case.source.check().map_err(|e| e.to_string())?;
     let constants = tsubu_assemble::Constants::of(&checked).map_err(|e| e.to_string())?;
-    let Law::SpringDashpot { law, .. } = &constants.law else {
+    let Law::SpringDashpot(of) = &constants.law else {
         return Err("YADE is asked for springs and dashpots only".into());
     };
+    let law = of.law();
     let tsubu_scene::Axis::Periodic(side) = checked.scene.domain.x else {
         return Err("YADE is asked for periodic beds only".into());
     };

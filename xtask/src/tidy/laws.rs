@@ -7,10 +7,12 @@ use super::tree::{File, Tree};
 const LAWS: [&str; 3] = ["Repulsion", "SpringDashpot", "HertzMindlin"];
 
 /// Whose business laws are, by the beginning of a path.
-const PLACES: [&str; 4] = [
+const PLACES: [&str; 5] = [
     "crates/contact/",
     "crates/scene/",
     "crates/assemble/src/law",
+    // What other programs call them.
+    "crates/tsubu/src/export/",
     // Which constant of a law makes it softer.
     "crates/tsubu/src/tune/knobs.rs",
 ];

@@ -178,6 +178,22 @@ fn refuse(target: Target, checked: &Checked) -> Result<(), SceneError> {
             "run the scene here",
         );
     }
+    if !scene.grains.populations.is_empty() {
+        let what = "is not given mixtures yet";
+        return no(
+            "grains.populations",
+            what,
+            "leave the populations out, or run it here",
+        );
+    }
+    if let Some(wall) = scene.walls.iter().position(|wall| wall.material.is_some()) {
+        let remedy = "give the wall its restitution and friction instead";
+        return no(
+            &format!("walls[{wall}].material"),
+            "is not given materials yet",
+            remedy,
+        );
+    }
     if scene.space == Space::Plane {
         return no(
             "space",
