@@ -32,8 +32,12 @@ pub fn file(root: &Path, name: &str) -> Result<std::path::PathBuf, String> {
     Ok(root.join(format!("target/validate/hertz/{print:016x}-{name}")))
 }
 
-/// The looks of a run.
-pub struct Rows(Vec<Vec<Reading>>);
+/// The looks of a run, and how many grains it ended with.
+pub struct Rows {
+    looks: Vec<Vec<Reading>>,
+    /// Number of grains at the end.
+    pub grains: usize,
+}
 
 impl Rows {
     /// A column by name.
@@ -42,7 +46,7 @@ impl Rows {
             let reading = row.iter().find(|reading| reading.name == name);
             reading.map_or(f64::NAN, |reading| reading.value)
         };
-        self.0.iter().map(of).collect()
+        self.looks.iter().map(of).collect()
     }
 
     /// The last value of a column.
@@ -67,13 +71,16 @@ pub fn rows(source: &Source, every: f64) -> Result<Rows, String> {
     let built = build_on_one_thread(source)?;
     let (mut run, dt) = (built.simulation, built.plan.constants.dt);
     let each = (every / dt).round().max(1.0) as u64;
-    let mut rows = vec![run.look()];
+    let mut looks = vec![run.look()];
     while !run.is_over() {
         run.advance(each);
-        rows.push(run.look());
+        looks.push(run.look());
     }
     match run.stop() {
-        None | Some(Stop::Over) => Ok(Rows(rows)),
+        None | Some(Stop::Over) => Ok(Rows {
+            looks,
+            grains: run.grains(),
+        }),
         Some(stop) => Err(format!("{source:?}: {stop:?}")),
     }
 }

@@ -121,7 +121,7 @@ pub fn janssen(report: &mut Report) -> Result<(), String> {
             );
             let rows = rows(&scene("silo", &[set])?, 0.01)?;
             let grain = 2500.0 * std::f64::consts::PI / 6.0 * 0.004f64.powi(3);
-            let weight = rows.last("grains") * grain * 9.80665;
+            let weight = rows.grains as f64 * grain * 9.80665;
             let floor = rows.column("force_z_on_floor");
             let tail = &floor[floor.len() - 10..];
             Ok((weight, -tail.iter().sum::<f64>() / 10.0))
