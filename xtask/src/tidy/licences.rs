@@ -1,6 +1,6 @@
 //! Licences and sources of everything that is linked: permissive ones only, from the registry or this workspace.
 //!
-//! It asks `cargo metadata`, which needs no network; a tool of its own for this would take longer to build than all of CI.
+//! It asks `cargo metadata`, which needs no network and no tool of its own to be built first.
 
 use super::Finding;
 use std::path::Path;
