@@ -80,7 +80,7 @@ pub struct DischargeOptions {
 /// Report: `mass_rate` (kg/s), the slope of the outlet's mass over its steady part ([`Steady::of_count`]), looked for from the first
 /// grain that left until the box over the opening was no longer full (90 % of what it held then); `steady` (1 or 0) says whether there
 /// is one without a drift, else the mean over all of that time is taken; `steady_from` (s); `hopper_bulk_density` (kg/m³), at the last look
-/// before the flow; `beverloo_rate` (kg/s), [`Opening::beverloo`] with it; `ratio_to_beverloo`.
+/// before a body was taken away and a grain left; `beverloo_rate` (kg/s), [`Opening::beverloo`] with it; `ratio_to_beverloo`.
 ///
 /// Figure: `outlet_mass`, with Beverloo's slope from the steady part on.
 ///
@@ -89,7 +89,7 @@ pub struct DischargeOptions {
 pub struct Discharge {
     options: DischargeOptions,
     gravity: f64,
-    /// At the last look before a grain left, kg/m³.
+    /// At the last look before the opening was opened, or where it always was before a grain left, kg/m³.
     bulk_density: f64,
     looks: Vec<Look>,
 }
@@ -151,7 +151,9 @@ impl<D: Dim, S: SpinState> Observer<D, S> for Discharge {
     fn see(&mut self, view: &dyn View<D, S>) -> Vec<Reading> {
         let outlet = view.passages()[self.options.outlet].mass;
         self.gravity = D::to_space(view.gravity()).length();
-        if outlet == 0.0 {
+        // Grains fall for a while between the opening and the outlet, and by then they lie looser.
+        let opened = view.bodies().iter().any(|body| body.removed_at.is_some());
+        if outlet == 0.0 && !opened {
             self.bulk_density = bulk_density(view, self.options.bin);
         }
         let [low, high] = self.options.bin;

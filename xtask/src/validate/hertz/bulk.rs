@@ -37,6 +37,8 @@ pub struct Rows {
     looks: Vec<Vec<Reading>>,
     /// Number of grains at the end.
     pub grains: usize,
+    /// Height of the uppermost centre at the end, m.
+    pub top: f64,
 }
 
 impl Rows {
@@ -80,6 +82,11 @@ pub fn rows(source: &Source, every: f64) -> Result<Rows, String> {
         None | Some(Stop::Over) => Ok(Rows {
             looks,
             grains: run.grains(),
+            top: run
+                .state()
+                .iter()
+                .map(|(x, _)| x.z)
+                .fold(f64::NEG_INFINITY, f64::max),
         }),
         Some(stop) => Err(format!("{source:?}: {stop:?}")),
     }

@@ -124,12 +124,14 @@ pub fn janssen(report: &mut Report) -> Result<(), String> {
             let weight = rows.grains as f64 * grain * 9.80665;
             let floor = rows.column("force_z_on_floor");
             let tail = &floor[floor.len() - 10..];
-            Ok((weight, -tail.iter().sum::<f64>() / 10.0))
+            // The floor has gone down by 2 mm; half a grain is above the uppermost centre.
+            let height = rows.top + 0.002 + 0.002;
+            Ok((weight, -tail.iter().sum::<f64>() / 10.0, height))
         })
-        .collect::<Result<Vec<(f64, f64)>, String>>()?;
+        .collect::<Result<Vec<(f64, f64, f64)>, String>>()?;
     // W_floor = W_s (1 − exp(−W/W_s)), W_s = ρb g A D/(4 μ K): W_s from the highest fill.
     let carried = |weight: f64, most: f64| most * (1.0 - (-weight / most).exp());
-    let (weight, floor) = all[2];
+    let (weight, floor, height) = all[2];
     let (mut low, mut high) = (1e-3 * weight, 1e3 * weight);
     for _ in 0..100 {
         let middle = (low * high).sqrt();
@@ -140,8 +142,8 @@ pub fn janssen(report: &mut Report) -> Result<(), String> {
         }
     }
     let most = (low * high).sqrt();
-    let area = std::f64::consts::PI * 0.02f64.powi(2);
-    let ratio = BULK * 9.80665 * area * 0.040 / (4.0 * 0.3 * most);
+    // ρb g A is weight over height.
+    let ratio = weight / height * 0.040 / (4.0 * 0.3 * most);
     report.check(
         "silo: K of Janssen from the highest fill",
         0.6,
@@ -149,7 +151,7 @@ pub fn janssen(report: &mut Report) -> Result<(), String> {
         Tolerance::Absolute(0.2),
         "0.4 to 0.8 where wall friction is mobilised (reference, section 4.6)",
     );
-    for ((weight, floor), top) in all.iter().zip(tops).take(2) {
+    for ((weight, floor, _), top) in all.iter().zip(tops).take(2) {
         report.check(
             format!("silo filled from {top} mm: load on its floor over Janssen's"),
             1.0,
