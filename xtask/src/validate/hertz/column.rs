@@ -67,7 +67,7 @@ pub fn collapse(report: &mut Report) -> Result<(), String> {
                 "discs that roll freely: Staron and Hinch find 2.5 a = 5 with contact dynamics",
             );
         } else {
-            report.check(
+            report.experiment(
                 what,
                 3.0,
                 runout,

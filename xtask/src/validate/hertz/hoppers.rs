@@ -40,7 +40,7 @@ pub fn beverloo(report: &mut Report) -> Result<(), String> {
     let (rate, error): (Vec<f64>, Vec<f64>) = rates.into_iter().unzip();
     let log = |values: &[f64]| values.iter().map(|v| v.ln()).collect::<Vec<f64>>();
     let slope = Line::fit(&log(&free), &log(&rate)).map_or(f64::NAN, |line| line.slope);
-    report.check(
+    report.experiment(
         "bins with round holes: exponent of the rate in D − 1.4 d",
         2.5,
         slope,
@@ -99,7 +99,7 @@ pub fn rectangular(report: &mut Report) -> Result<(), String> {
     let (time, mass): (Vec<f64>, Vec<f64>) = ANAND.iter().copied().unzip();
     let published = Line::fit(&time, &mass).map_or(f64::NAN, |line| line.slope);
     let (rate, _) = measured.get("mass_rate");
-    report.check(
+    report.cross_code(
         "rectangular hopper: rate of half the depth, g/s",
         published,
         rate * 1e3 / 2.0,
@@ -144,7 +144,7 @@ pub fn janssen(report: &mut Report) -> Result<(), String> {
     let most = (low * high).sqrt();
     // ρb g A is weight over height.
     let ratio = weight / height * 0.040 / (4.0 * 0.3 * most);
-    report.check(
+    report.experiment(
         "silo: K of Janssen from the highest fill",
         0.6,
         ratio,
